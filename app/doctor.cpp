@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "app/machine_memory.h"
 #include "app/verbs.h"
 #include "app/words.h"
 #include "results/build_info.h"
@@ -52,8 +53,7 @@ Finding threads() {
 }
 
 Finding memory() {
-  const double page = static_cast<double>(sysconf(_SC_PAGESIZE));
-  const double all = page * static_cast<double>(sysconf(_SC_PHYS_PAGES)), free = page * static_cast<double>(sysconf(_SC_AVPHYS_PAGES));
+  const double all = machine_memory(), free = static_cast<double>(sysconf(_SC_PAGESIZE)) * static_cast<double>(sysconf(_SC_AVPHYS_PAGES));
   return {"memory", bytes_words(all) + ", " + bytes_words(free) + " free", all >= 1e9, "less than 1 GB: only small studies will fit"};
 }
 

@@ -1,12 +1,29 @@
 #include "app/read_study.h"
 
+#include "app/machine_memory.h"
 #include "app/words.h"
 #include "results/file_io.h"
 #include "scenarios/criteria/judge.h"
 #include "scenarios/criteria/understand.h"
 #include "scenarios/library/library.h"
+#include "scenarios/run/cost_model.h"
 
 namespace morula::app {
+
+namespace {
+
+/// W699 where one process would need more memory than this machine has.
+void warn_of_memory(scenarios::Study& study, const std::string& path, const Context& context) {
+  const double need = scenarios::memory_at_start(study), all = machine_memory();
+  if (context.comm.size() > 1 || need <= all) return;
+  scenarios::Place place;
+  place.source = std::make_shared<const scenarios::SourceText>(path, "");
+  study.warnings.warning(699, place,
+                         "this study takes about " + bytes_words(need) + " from its start, and this machine has " + bytes_words(all),
+                         "fewer cells, larger voxels, or ranks on several machines");
+}
+
+}  // namespace
 
 Result<scenarios::Study> read_study_and_tell(const std::string& path, const std::vector<std::string>& overrides, bool strict,
                                              const Context& context, scenarios::ReadOptions options) {
@@ -16,6 +33,7 @@ Result<scenarios::Study> read_study_and_tell(const std::string& path, const std:
   options.check_criteria = &scenarios::check_criteria;
   options.strict = strict;
   auto study = scenarios::read_study(path, options);
+  if (study.ok()) warn_of_memory(*study, path, context);
   const scenarios::Diagnostics& told = study.ok() ? study->warnings : study.error();
   if (!told.empty()) context.console.message(told.text(context.console.colour()));
   if (study.ok()) {

@@ -43,6 +43,8 @@ Status resume(const ResumeOptions& options, const Context& context) {
     const std::string key = change.substr(0, change.find('='));
     if (key == "initial" || key.starts_with("initial.") || (key.starts_with("fields.") && key.ends_with(".initial")))
       return Error{ErrorKind::kInput, "`" + key + "` says how a run begins, and this one has begun", "start a new run with `morula run`"};
+    if (key.starts_with("cell_types.") && (key.ends_with(".body") || key.ends_with(".radius") || key.find(".radius.") != std::string::npos))
+      context.console.note("`" + key + "` is of cells that begin: those that the run has keep theirs");
   }
   scenarios::ResumeRequest request;
   request.laws = context.laws;

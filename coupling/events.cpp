@@ -48,7 +48,8 @@ std::string text_of_cause(const EventReason& reason, const Model& model) {
     case Cause::kTrigger:
       return text_of(model.swaps.triggers[reason.number], model);
     case Cause::kOutside:
-      return model.swaps.regions.empty() && model.swaps.triggers.empty() ? "its type" : "outside";
+      if (!model.swaps.regions.empty()) return "outside";
+      return model.swaps.triggers.empty() ? "its type" : "no trigger asks for a shell any more";
     case Cause::kBecameShell:
       return "how far its neighbours went since it became a shell";
     case Cause::kBecameSphere:

@@ -38,7 +38,7 @@ void for_faces(const Tissue& tissue, int mark, F&& function) {
 }
 
 /// Marks the faces, and notes what else is a wall.
-void mark_by_sight(const Lumen& lumen, Tissue& tissue, LumenState& state, const Comm& comm) {
+void mark_by_sight(const Lumen& lumen, std::span<const RigidSurface> obstacles, Tissue& tissue, LumenState& state, const Comm& comm) {
   SightMap map(lumen.center, lumen.reach);
   dcm::Shells& shells = tissue.shells;
   std::uint32_t number = 0;
@@ -54,6 +54,10 @@ void mark_by_sight(const Lumen& lumen, Tissue& tissue, LumenState& state, const 
     first_face.push_back(number);
   }
   for (std::size_t i = 0; i < tissue.spheres.size(); ++i) map.add_ball(tissue.spheres.position[i], tissue.spheres.radius[i]);
+  for (std::size_t o = 0; comm.is_root() && o < obstacles.size(); ++o) {
+    const auto at = [&](std::uint32_t node) { return obstacles[o].position[node] + tissue.obstacle_offset[o]; };
+    for (const Triangle& t : obstacles[o].topology->faces()) map.add_wall(at(t[0]), at(t[1]), at(t[2]));
+  }
   map.join(comm);
   for (std::size_t s = 0; s < shells.size(); ++s)
     for (std::size_t face = 0; face < shells.marks_of(s).size(); ++face)
@@ -63,9 +67,10 @@ void mark_by_sight(const Lumen& lumen, Tissue& tissue, LumenState& state, const 
     set_mark(shells.faces_of(s).mark, shells.marks_of(s).width(), face - first_face[s], lumen.mark, true);
   }
   state.covered = map.covered();
-  const SightMap::Balls balls = map.balls(comm);
-  state.before_spheres = balls.volume;
-  state.sphere_directions = balls.directions;
+  const SightMap::InTheWay others = map.in_the_way(comm);
+  state.before_others = others.volume;
+  state.other_directions = others.directions;
+  state.wall_x = others.wall.x, state.wall_y = others.wall.y, state.wall_z = others.wall.z;
 }
 
 }  // namespace
@@ -96,13 +101,13 @@ void measure_lumens(const Model& model, Tissue& tissue, const Comm& comm) {
     const double of_shells = total[2] / (4.0 * std::numbers::pi);
     if (!lumen.by_sight) state.covered = of_shells;
     state.area = total[1];
-    const double of_walls = of_shells + state.sphere_directions;
-    state.volume = state.covered >= kBurst && of_walls > 0.0 ? std::max(0.0, (total[0] + state.before_spheres) / of_walls) : 0.0;
+    const double of_walls = of_shells + state.other_directions;
+    state.volume = state.covered >= kBurst && of_walls > 0.0 ? std::max(0.0, (total[0] + state.before_others) / of_walls) : 0.0;
     state.pressure = lumen_pressure(lumen, state, tissue.clock.time);
   }
 }
 
-void look_into_lumens(const Model& model, Tissue& tissue, const Comm& comm) {
+void look_into_lumens(const Model& model, std::span<const RigidSurface> obstacles, Tissue& tissue, const Comm& comm) {
   if (model.lumens.empty()) return;
   tissue.lumens.resize(model.lumens.size());
   bool looked = false;
@@ -114,7 +119,7 @@ void look_into_lumens(const Model& model, Tissue& tissue, const Comm& comm) {
     const bool first = state.looked_at < lumen.from;
     state.looked_at = time;
     looked = true;
-    if (lumen.by_sight) mark_by_sight(lumen, tissue, state, comm);
+    if (lumen.by_sight) mark_by_sight(lumen, obstacles, tissue, state, comm);
     if (!first) continue;
     measure_lumens(model, tissue, comm);
     if (lumen.keeps_solute) state.amount = lumen.pressure * state.volume / kGasEnergy;
@@ -135,7 +140,8 @@ void add_lumen_forces(const Model& model, const Tissue& tissue, double time, con
     double total[4];
     comm.sum(sums, total);
     if (!(total[0] > 0.0)) continue;
-    const Vec3d mean = Vec3d{total[1], total[2], total[3]} * (1.0 / total[0]);
+    const LumenState& state = tissue.lumens[k];
+    const Vec3d mean = (Vec3d{total[1], total[2], total[3]} - Vec3d{state.wall_x, state.wall_y, state.wall_z}) * (1.0 / total[0]);
     for_faces(tissue, lumen.mark, [&](const Triangle& t, const Vec3d& area) {
       const Vec3d push = (mean * norm(area) - area) * (pressure / 3.0);
       for (const std::uint32_t node : t) external[node] += push;

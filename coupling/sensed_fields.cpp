@@ -12,6 +12,20 @@ namespace {
 
 double radius_of(const CellRow& row) { return ball_radius(row.target_volume); }
 
+/// What is seen at a point, where faces of the domain have a concentration: between such a face and the middle of the voxel at it a field goes straight from
+/// the face's concentration to that of the voxel, which is what sample() gives there; beyond the face it stays.
+double beside_faces(double seen, const Vec3d& at, const fields::Grid& grid, const fields::FieldSpec& now, const Space& space) {
+  const Vec3d half = grid.spacing() * 0.5;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t side = 0; side < 2 && !space.periodic(static_cast<int>(axis)); ++side) {
+      const fields::FaceCondition& face = now.boundary[axis][side];
+      const double depth = side == 0 ? at[axis] - grid.box.low[axis] : grid.box.high[axis] - at[axis];
+      if (face.kind != fields::FaceCondition::Kind::kValue || depth >= half[axis]) continue;
+      seen = face.value + (seen - face.value) * std::max(0.0, depth / half[axis]);
+    }
+  return seen;
+}
+
 }  // namespace
 
 bool any_senses_a_field(std::span<const CellType> types) {
@@ -23,13 +37,17 @@ Result<std::vector<SensedField>> sense_field(const Model& model, const Tissue& t
   std::vector<SensedField> out(rows.size());
   std::vector<fields::CellSource> points(rows.size());
   std::vector<double> ahead(rows.size()), behind(rows.size());
-  const auto sample = [&](std::size_t axis, double sign, std::vector<double>& seen) {
+  const fields::FieldSpec now = fields::in_interval(model.fields[field], tissue.clock.time, 0.0);
+  const auto sample = [&](std::size_t axis, double sign, std::vector<double>& seen) -> Status {
     for (std::size_t k = 0; k < rows.size(); ++k) {
       const CellRow& row = tissue.cells.rows[rows[k]];
       points[k] = {row.id, row.type, center[k]};
       points[k].center[axis] += sign * radius_of(row);
     }
-    return fields::sample(tissue.fields[field], model.space, points, comm, seen);
+    MORULA_TRY(fields::sample(tissue.fields[field], model.space, points, comm, seen));
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      seen[k] = beside_faces(seen[k], points[k].center, tissue.fields[field].grid, now, model.space);
+    return {};
   };
   for (std::size_t axis = 0; axis < 3; ++axis) {
     MORULA_TRY(sample(axis, 1.0, ahead));

@@ -40,7 +40,7 @@ void SightMap::cast(int side, const Window& w, std::uint32_t number, const Hit& 
       const double along = hit(ray);
       if (!(along > 0.0)) continue;
       const double distance = along * norm(ray);
-      if (number < kBall) ++met_[number];
+      if (number < kFirstWall) ++met_[number];
       const std::size_t place =
           (static_cast<std::size_t>(side) * kSide + static_cast<std::size_t>(j)) * kSide + static_cast<std::size_t>(i);
       if (distance > reach_ || !(distance < own_[place] || (distance == own_[place] && number < number_[place]))) continue;
@@ -51,6 +51,16 @@ void SightMap::cast(int side, const Window& w, std::uint32_t number, const Hit& 
 
 void SightMap::add_triangle(const Vec3d& a, const Vec3d& b, const Vec3d& c, std::uint32_t number) {
   if (number != kNothing && met_.size() <= number) met_.resize(number + std::size_t{1}, 0);
+  cast_triangle(a, b, c, number);
+}
+
+void SightMap::add_wall(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+  const Vec3d n = cross(b - a, c - a);
+  wall_normal_.push_back(normalized(dot(n, a - eye_) < 0.0 ? -n : n));
+  cast_triangle(a, b, c, kFirstWall + static_cast<std::uint32_t>(wall_normal_.size() - 1));
+}
+
+void SightMap::cast_triangle(const Vec3d& a, const Vec3d& b, const Vec3d& c, std::uint32_t number) {
   if (std::min({norm(a - eye_), norm(b - eye_), norm(c - eye_)}) > reach_) return;
   for (int side = 0; side < 6; ++side) {
     const Vec3d p[3] = {turned(a - eye_, side), turned(b - eye_, side), turned(c - eye_, side)};
@@ -100,7 +110,7 @@ void SightMap::join(const Comm& comm) {
 std::vector<std::uint32_t> SightMap::seen() const {
   std::vector<std::uint32_t> nearest(met_.size(), 0), out;
   for (std::size_t i = 0; i < own_.size(); ++i)
-    if (number_[i] < kBall && own_[i] == distance_[i]) ++nearest[number_[i]];
+    if (number_[i] < kFirstWall && own_[i] == distance_[i]) ++nearest[number_[i]];
   for (std::uint32_t k = 0; k < met_.size(); ++k)
     if (met_[k] > 0 && 2 * nearest[k] >= met_[k]) out.push_back(k);
   return out;
@@ -111,19 +121,33 @@ double SightMap::weight(std::size_t ray) {
   return std::pow(1.0 + u * u + v * v, -1.5);
 }
 
-SightMap::Balls SightMap::balls(const Comm& comm) const {
-  OrderFreeSum sums[2];
+Vec3d SightMap::direction(std::size_t ray) {
+  const std::size_t side = ray / (std::size_t{kSide} * kSide), axis = side / 2;
+  Vec3d out{};
+  out[(axis + 1) % 3] = ray_coordinate(static_cast<int>(ray % kSide));
+  out[(axis + 2) % 3] = ray_coordinate(static_cast<int>(ray / kSide % kSide));
+  out[axis] = side % 2 ? -1.0 : 1.0;
+  return out;
+}
+
+SightMap::InTheWay SightMap::in_the_way(const Comm& comm) const {
+  OrderFreeSum sums[5];
   double all = 0.0;
   for (std::size_t i = 0; i < own_.size(); ++i) {
     const double part = weight(i);
     all += part;
-    if (number_[i] != kBall || own_[i] != distance_[i]) continue;
+    if (number_[i] == kNothing || number_[i] < kFirstWall || own_[i] != distance_[i]) continue;
     sums[0].add(part * own_[i] * own_[i] * own_[i] / 3.0);
     sums[1].add(part);
+    if (number_[i] == kBall) continue;
+    const Vec3d& normal = wall_normal_[number_[i] - kFirstWall];
+    const Vec3d area = normal * (part * own_[i] * own_[i] / dot(normal, normalized(direction(i))));
+    for (std::size_t axis = 0; axis < 3; ++axis) sums[2 + axis].add(area[axis]);
   }
-  double total[2];
+  double total[5];
   comm.sum(sums, total);
-  return {4.0 * std::numbers::pi * total[0] / all, total[1] / all};
+  const double of_part = 4.0 * std::numbers::pi / all;
+  return {of_part * total[0], total[1] / all, Vec3d{total[2], total[3], total[4]} * of_part};
 }
 
 double SightMap::covered() const {

@@ -18,6 +18,7 @@ class SightMap {
  public:
   static constexpr int kSide = 128;
   static constexpr std::uint32_t kNothing = 0xFFFFFFFFu, kBall = kNothing - 1;
+  static constexpr std::uint32_t kFirstWall = 0x80000000u;  ///< numbers of triangles are below it
 
   /// reach: what is further away is not seen [µm].
   SightMap(const Vec3d& eye, double reach);
@@ -26,6 +27,8 @@ class SightMap {
   void add_triangle(const Vec3d& a, const Vec3d& b, const Vec3d& c, std::uint32_t number);
   /// A ball stands in the way.
   void add_ball(const Vec3d& center, double radius);
+  /// A triangle of a wall stands in the way. Of several ranks one adds it.
+  void add_wall(const Vec3d& a, const Vec3d& b, const Vec3d& c);
 
   /// Nearest distances over all ranks. Collective.
   void join(const Comm& comm);
@@ -35,11 +38,13 @@ class SightMap {
   [[nodiscard]] std::vector<std::uint32_t> seen() const;
   /// Part of the sphere of directions along which something is seen.
   [[nodiscard]] double covered() const;
-  /// What is seen of balls, over all ranks: ∫ r³/3 dΩ [µm³], and the part of the sphere of directions. Collective.
-  struct Balls {
-    double volume, directions;
+  /// What is seen of balls and walls, over all ranks. Collective.
+  struct InTheWay {
+    double volume;      ///< ∫ r³/3 dΩ [µm³]
+    double directions;  ///< part of the sphere of directions
+    Vec3d wall;         ///< ∫ n dA over what is seen of walls, n away from the eye [µm²]
   };
-  [[nodiscard]] Balls balls(const Comm& comm) const;
+  [[nodiscard]] InTheWay in_the_way(const Comm& comm) const;
 
  private:
   struct Window {  ///< rays [u0, u1) × [v0, v1) of one face of the cube
@@ -47,8 +52,11 @@ class SightMap {
   };
   /// Solid angle of a ray's pixel, but for a factor.
   static double weight(std::size_t ray);
+  /// Of the laboratory, not of length 1.
+  static Vec3d direction(std::size_t ray);
   template <class Hit>
   void cast(int side, const Window& window, std::uint32_t number, const Hit& hit);
+  void cast_triangle(const Vec3d& a, const Vec3d& b, const Vec3d& c, std::uint32_t number);
 
   Vec3d eye_;
   double reach_;
@@ -56,6 +64,7 @@ class SightMap {
   std::vector<double> own_;            ///< of what was added here
   std::vector<std::uint32_t> number_;  ///< of what was added here
   std::vector<std::uint32_t> met_;     ///< directions in which a triangle lies, by number
+  std::vector<Vec3d> wall_normal_;     ///< of the triangles of walls, in the order of their numbers
 };
 
 }  // namespace morula

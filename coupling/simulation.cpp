@@ -160,7 +160,8 @@ std::vector<fields::CellSource> Simulation::field_sources() const {
   std::vector<fields::CellSource> out;
   for (const BodyOfRow& body : bodies_of(tissue_.cells)) {
     const CellRow& row = tissue_.cells.rows[body.row];
-    fields::CellSource& source = out.emplace_back(fields::CellSource{row.id, row.type, center[body.row]});
+    const auto type = static_cast<std::uint16_t>(row.phase == Phase::kDying ? model_.types.size() + row.type : row.type);
+    fields::CellSource& source = out.emplace_back(fields::CellSource{row.id, type, center[body.row]});
     if (body.is_shell) {
       source.faces = tissue_.shells.topology(body.number).faces();
       source.nodes = tissue_.shells.nodes(body.number);

@@ -39,14 +39,16 @@ struct Ledger {
 
 /// A cavity (Lumen) as it was when it was last looked at. The same on every rank.
 struct LumenState {
-  double looked_at = -1e300;       ///< when its faces were last found [s]
-  double amount = 0.0;             ///< of solute, where it is kept [amol]
-  double volume = 0.0;             ///< [µm³]
-  double pressure = 0.0;           ///< [kPa]
-  double area = 0.0;               ///< of its faces [µm²]
-  double covered = 0.0;            ///< part of all directions in which there is a wall
-  double before_spheres = 0.0;     ///< volume between the centre and the spheres that are seen, when it was last looked at [µm³]
-  double sphere_directions = 0.0;  ///< part of all directions in which they are seen
+  double looked_at = -1e300;  ///< when its faces were last found [s]
+  double amount = 0.0;        ///< of solute, where it is kept [amol]
+  double volume = 0.0;        ///< [µm³]
+  double pressure = 0.0;      ///< [kPa]
+  double area = 0.0;          ///< of its faces [µm²]
+  double covered = 0.0;       ///< part of all directions in which there is a wall
+  // Of spheres, obstacles and walls that are seen, when it was last looked at:
+  double before_others = 0.0;                       ///< volume between the centre and them [µm³]
+  double other_directions = 0.0;                    ///< part of all directions in which they are seen
+  double wall_x = 0.0, wall_y = 0.0, wall_z = 0.0;  ///< ∫ n dA of obstacles and walls alone, n out of the cavity [µm²]
 };
 
 /// A neighbour of a cell that has exchanged its body, until it is told how far it went (coupling/exchange_effects.h). Nothing else depends on it.

@@ -17,7 +17,7 @@ namespace morula::fields {
 /// A cell as a field sees it: a ball, or what its surface encloses.
 struct CellSource {
   CellId id;
-  std::uint16_t type = 0;
+  std::uint16_t type = 0;  ///< as FieldReaction::type
   Vec3d center{};
   double radius = 0.0;                ///< of a ball [µm]
   std::span<const Triangle> faces{};  ///< of a closed surface, outward; empty: a ball

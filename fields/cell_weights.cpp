@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <tuple>
+
+#include "core/ball.h"
 
 namespace morula::fields {
 
 namespace {
-
-constexpr int kPoints = 4;  ///< per voxel and axis
 
 /// The voxel's number after periodic wrapping, or -1 outside the domain.
 std::int32_t wrapped(std::int64_t i, std::int32_t n, bool periodic) {
@@ -36,40 +35,8 @@ struct Spreader {
   }
 };
 
-/// Number of sample points of a voxel inside the sphere.
-int points_inside(const Vec3d& corner, const Vec3d& h, const Vec3d& center, double radius) {
-  int count = 0;
-  std::array<std::array<double, kPoints>, 3> square{};
-  for (std::size_t a = 0; a < 3; ++a)
-    for (int i = 0; i < kPoints; ++i) {
-      const double d = corner[a] + (i + 0.5) / kPoints * h[a] - center[a];
-      square[a][static_cast<std::size_t>(i)] = d * d;
-    }
-  for (const double z : square[2])
-    for (const double y : square[1])
-      for (const double x : square[0]) count += x + y + z <= radius * radius ? 1 : 0;
-  return count;
-}
-
-void spread_volume(Spreader& spread, const Vec3d& center, double radius) {
-  const Vec3d h = spread.grid.spacing(), low = spread.grid.box.low;
-  std::array<std::int64_t, 3> first{}, last{};
-  for (std::size_t a = 0; a < 3; ++a) {
-    first[a] = static_cast<std::int64_t>(std::floor((center[a] - radius - low[a]) / h[a]));
-    last[a] = static_cast<std::int64_t>(std::floor((center[a] + radius - low[a]) / h[a]));
-  }
-  std::array<std::int64_t, 3> v{};
-  for (v[2] = first[2]; v[2] <= last[2]; ++v[2])
-    for (v[1] = first[1]; v[1] <= last[1]; ++v[1])
-      for (v[0] = first[0]; v[0] <= last[0]; ++v[0]) {
-        const Vec3d corner{low.x + static_cast<double>(v[0]) * h.x, low.y + static_cast<double>(v[1]) * h.y,
-                           low.z + static_cast<double>(v[2]) * h.z};
-        const int count = points_inside(corner, h, center, radius);
-        if (count > 0) spread.add(v, count);
-      }
-}
-
-void spread_trilinear(Spreader& spread, const Vec3d& center) {
+/// Weights of a sum `total`.
+void spread_trilinear(Spreader& spread, const Vec3d& center, double total) {
   const Vec3d h = spread.grid.spacing(), low = spread.grid.box.low;
   std::array<std::int64_t, 3> base{};
   std::array<double, 3> part{};
@@ -79,7 +46,7 @@ void spread_trilinear(Spreader& spread, const Vec3d& center) {
     part[a] = s - std::floor(s);
   }
   for (int corner = 0; corner < 8; ++corner) {
-    double weight = 1.0;
+    double weight = total;
     std::array<std::int64_t, 3> v = base;
     for (std::size_t a = 0; a < 3; ++a) {
       const bool high = ((corner >> a) & 1) != 0;
@@ -90,7 +57,7 @@ void spread_trilinear(Spreader& spread, const Vec3d& center) {
   }
 }
 
-constexpr double kLinesAcross = 12.0;   ///< sample lines across the least width of a closed surface
+constexpr double kLinesAcross = 12.0;   ///< sample lines across the least width of a cell
 constexpr int kFewest = 4, kMost = 64;  ///< sample lines per voxel and axis
 
 /// Where a sample line along z goes into a closed surface (sign 1) or comes out of it (−1).
@@ -161,22 +128,75 @@ std::vector<Crossing> crossings_of(const SampleLines& lines, std::span<const Tri
   return out;
 }
 
-/// Lengths of the sample lines inside the surface, voxel by voxel.
-void spread_inside(Spreader& spread, const SampleLines& lines, const std::vector<Crossing>& crossings) {
-  std::map<std::array<std::int64_t, 3>, double> length;  // by place z, y, x
+/// Lengths of sample lines inside a cell, by voxel of the box of those that it meets [voxels].
+class InsideLengths {
+ public:
+  InsideLengths(const SampleLines& lines, const Vec3d& least, const Vec3d& most) : lines_(lines) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      first_[a] = static_cast<std::int64_t>(std::floor((least[a] - lines.low[a]) / lines.h[a]));
+      number_[a] = static_cast<std::int64_t>(std::floor((most[a] - lines.low[a]) / lines.h[a])) + 1 - first_[a];
+    }
+    length_.assign(static_cast<std::size_t>(number_[0] * number_[1] * number_[2]), 0.0);
+  }
+
+  /// A line is inside from one z to another; i, j: its numbers among the lines.
+  void add(std::int64_t i, std::int64_t j, double low, double high) {
+    const std::int64_t x = lines_.voxel(0, i) - first_[0], y = lines_.voxel(1, j) - first_[1];
+    const double from = (low - lines_.low.z) / lines_.h.z - static_cast<double>(first_[2]);
+    const double to = (high - lines_.low.z) / lines_.h.z - static_cast<double>(first_[2]);
+    for (double v = std::max(0.0, std::floor(from)); v < to && v < static_cast<double>(number_[2]); v += 1.0)
+      length_[static_cast<std::size_t>((static_cast<std::int64_t>(v) * number_[1] + y) * number_[0] + x)] +=
+          std::min(to, v + 1.0) - std::max(from, v);
+  }
+
+  /// Weights of a sum `total`, in so far as they lie in the domain.
+  void spread(Spreader& spread, double total) const {
+    double sum = 0.0;
+    for (const double part : length_) sum += part;
+    std::size_t k = 0;
+    for (std::int64_t z = 0; z < number_[2]; ++z)
+      for (std::int64_t y = 0; y < number_[1]; ++y)
+        for (std::int64_t x = 0; x < number_[0]; ++x, ++k)
+          if (length_[k] > 0.0) spread.add({first_[0] + x, first_[1] + y, first_[2] + z}, length_[k] * (total / sum));
+  }
+
+ private:
+  const SampleLines& lines_;
+  std::array<std::int64_t, 3> first_{}, number_{};
+  std::vector<double> length_;  ///< x fastest
+};
+
+void spread_surface(Spreader& spread, const Vec3d& least, const Vec3d& most, std::span<const Triangle> faces, std::span<const Vec3d> nodes,
+                    double total) {
+  const SampleLines lines = lines_through(spread.grid, least, most);
+  const std::vector<Crossing> crossings = crossings_of(lines, faces, nodes);
+  InsideLengths lengths(lines, least, most);
   int inside = 0;
   for (std::size_t k = 0; k + 1 < crossings.size(); ++k) {
     inside += crossings[k].sign;
     if (crossings[k + 1].line != crossings[k].line) inside = 0;
-    if (inside <= 0) continue;
-    const std::int64_t x = lines.voxel(0, crossings[k].line % lines.number[0]), y = lines.voxel(1, crossings[k].line / lines.number[0]);
-    const double from = (crossings[k].z - lines.low.z) / lines.h.z, to = (crossings[k + 1].z - lines.low.z) / lines.h.z;
-    for (double v = std::floor(from); v < to; v += 1.0)
-      length[{static_cast<std::int64_t>(v), y, x}] += std::min(to, v + 1.0) - std::max(from, v);
+    if (inside > 0)
+      lengths.add(crossings[k].line % lines.number[0], crossings[k].line / lines.number[0], crossings[k].z, crossings[k + 1].z);
   }
-  for (const auto& [place, part] : length)
-    if (part > 0.0) spread.add({place[2], place[1], place[0]}, part);
+  lengths.spread(spread, total);
 }
+
+void spread_ball(Spreader& spread, const Vec3d& center, double radius, double total) {
+  const Vec3d reach{radius, radius, radius}, least = center - reach, most = center + reach;
+  const SampleLines lines = lines_through(spread.grid, least, most);
+  InsideLengths lengths(lines, least, most);
+  for (std::int64_t j = 0; j < lines.number[1]; ++j)
+    for (std::int64_t i = 0; i < lines.number[0]; ++i) {
+      const double x = lines.place(0, i) - center.x, y = lines.place(1, j) - center.y, square = radius * radius - x * x - y * y;
+      if (square <= 0.0) continue;
+      const double half = std::sqrt(square);
+      lengths.add(i, j, center.z - half, center.z + half);
+    }
+  lengths.spread(spread, total);
+}
+
+/// How much of a cell is spread by its volume; the rest by the trilinear weights of its centre. From half a voxel to a whole one.
+double part_by_volume(const Vec3d& h, double radius) { return std::clamp(2.0 * radius / std::max({h.x, h.y, h.z}) - 1.0, 0.0, 1.0); }
 
 void merge_equal_voxels(std::vector<VoxelWeight>& weights) {
   std::stable_sort(weights.begin(), weights.end(),
@@ -226,11 +246,9 @@ void finish(Spreader& spread, const Vec3d& center) {
 void sphere_weights(const Grid& grid, const Space& space, const Vec3d& center, double radius, std::vector<VoxelWeight>& out) {
   out.clear();
   Spreader spread{grid, space, out};
-  const Vec3d h = grid.spacing();
-  if (radius < 0.5 * std::max({h.x, h.y, h.z}))
-    spread_trilinear(spread, center);
-  else
-    spread_volume(spread, center, radius);
+  const double by_volume = part_by_volume(grid.spacing(), radius);
+  if (by_volume < 1.0) spread_trilinear(spread, center, 1.0 - by_volume);
+  if (by_volume > 0.0) spread_ball(spread, center, radius, by_volume);
   finish(spread, center);
 }
 
@@ -241,8 +259,11 @@ void surface_weights(const Grid& grid, const Space& space, const Vec3d& center, 
   Vec3d least = center, most = center;
   for (const Vec3d& x : nodes)
     for (std::size_t a = 0; a < 3; ++a) least[a] = std::min(least[a], x[a]), most[a] = std::max(most[a], x[a]);
-  const SampleLines lines = lines_through(grid, least, most);
-  spread_inside(spread, lines, crossings_of(lines, faces, nodes));
+  double volume = 0.0;
+  for (const Triangle& t : faces) volume += dot(nodes[t[0]] - center, cross(nodes[t[1]] - center, nodes[t[2]] - center)) / 6.0;
+  const double by_volume = part_by_volume(grid.spacing(), ball_radius(std::max(0.0, volume)));
+  if (by_volume < 1.0) spread_trilinear(spread, center, 1.0 - by_volume);
+  if (by_volume > 0.0) spread_surface(spread, least, most, faces, nodes, by_volume);
   finish(spread, center);
 }
 

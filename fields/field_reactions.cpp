@@ -63,7 +63,7 @@ Status check_reactions(const FieldSpec& spec) {
       return Error{ErrorKind::kInput, "field '" + spec.name + "': '" + key + "' of " + one.what->info.name + " " + what, help};
     };
     for (const OwnKey& key : one.what->keys) {
-      if (key.kind != OwnKey::Kind::kQuantity) continue;
+      if (key.kind != OwnKey::Kind::kQuantity || (key.spec.fallback != nullptr && !one.values.has(key.spec.name))) continue;
       const KeySpec& k = key.spec;
       const double value = one.values(k.name);
       if (!std::isfinite(value) || !k.holds(value))

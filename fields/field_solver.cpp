@@ -50,9 +50,10 @@ Status check(const FieldSpec& spec) {
 
 namespace {
 
-/// The largest concentration that matters: start, faces, now.
+/// The largest concentration that matters: on the faces, and now; of what once was there a trace.
 double concentration_scale(const Field& field, const FieldSpec& spec, double interval, const Comm& comm) {
-  double scale = std::fabs(spec.initial);
+  constexpr double kTrace = 1e-9;
+  double scale = kTrace * std::fabs(spec.initial);
   for (const auto& axis : spec.boundary)
     for (const auto& face : axis)
       if (face.kind == FaceCondition::Kind::kValue) scale = std::max({scale, std::fabs(face.value), std::fabs(face.at(interval))});

@@ -25,7 +25,7 @@ struct FaceCondition {
 struct FieldReaction {
   std::shared_ptr<const Reaction> what;
   LawValues values;
-  std::uint16_t type = 0;  ///< of the cells, of a reaction of cells
+  std::uint16_t type = 0;  ///< of the cells, of a reaction of cells; after all types come these again, for cells that are dying
 };
 
 /// One diffusing concentration: ∂c/∂t = D ∇²c − what reactions take (physics: fields_and_coupling.md, A).

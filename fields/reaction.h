@@ -51,6 +51,8 @@ struct Reaction {
   ReactionCoefficients (*coefficients)(const LawValues& values) = nullptr;
   /// What is wrong with values that lie in their ranges; null: nothing can be.
   std::optional<LawProblem> (*judge)(const LawValues& values) = nullptr;
+  /// Of cells: the values with which cells that are dying go on; null: they do nothing.
+  LawValues (*of_dying)(const LawValues& values) = nullptr;
   /// With these values it never does anything; null: it always may.
   bool (*never_acts)(const LawValues& values) = nullptr;
 

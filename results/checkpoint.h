@@ -14,7 +14,7 @@
 namespace morula::scenarios {
 
 /// Version of the layout of a checkpoint. A file of another version is refused.
-inline constexpr std::uint32_t kCheckpointFormat = 6;
+inline constexpr std::uint32_t kCheckpointFormat = 7;
 
 /// What a checkpoint holds besides the state.
 struct CheckpointInfo {

@@ -33,10 +33,13 @@ void for_each_lumen_field(Visit&& visit) {
   visit("pressure", "kPa", &LumenState::pressure);
   visit("area", "um^2", &LumenState::area);
   visit("covered", "1", &LumenState::covered);
-  visit("before_spheres", "um^3", &LumenState::before_spheres);
-  visit("sphere_directions", "1", &LumenState::sphere_directions);
+  visit("before_others", "um^3", &LumenState::before_others);
+  visit("other_directions", "1", &LumenState::other_directions);
+  visit("wall_x", "um^2", &LumenState::wall_x);
+  visit("wall_y", "um^2", &LumenState::wall_y);
+  visit("wall_z", "um^2", &LumenState::wall_z);
 }
-static_assert(sizeof(LumenState) == 8 * 8, "list every member of LumenState in for_each_lumen_field");
+static_assert(sizeof(LumenState) == 11 * 8, "list every member of LumenState in for_each_lumen_field");
 
 /// visit(name, units, member of Field): what it has beside grid, bricks and concentrations.
 template <class Visit>

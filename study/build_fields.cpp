@@ -40,6 +40,10 @@ void add_values(BuildContext& c, const std::shared_ptr<const fields::Reaction>& 
   if (!values || (what->never_acts != nullptr && what->never_acts(*values))) return;
   if (const auto problem = what->judge != nullptr ? what->judge(*values) : std::nullopt) return tell_problem(c, *problem, own, place);
   spec.reactions.push_back({what, *values, type});
+  if (what->of_dying == nullptr) return;
+  LawValues of_dying = what->of_dying(*values);
+  if (what->never_acts != nullptr && what->never_acts(of_dying)) return;
+  spec.reactions.push_back({what, std::move(of_dying), static_cast<std::uint16_t>(c.draft.cell_types.size() + type)});
 }
 
 void add_reaction(BuildContext& c, const std::shared_ptr<const fields::Reaction>& what, const draft::Field& f, const Place& place,
@@ -68,10 +72,19 @@ void build_border_course(BuildContext& c, const draft::Field& f, fields::FieldSp
   const auto is_held = [](const fields::FaceCondition& face) {
     return face.kind == fields::FaceCondition::Kind::kValue && face.value > 0.0;
   };
-  for (const auto& axis : spec.boundary)
-    if (std::ranges::any_of(axis, is_held)) return;
-  c.diagnostics.error(111, f.course.front().place, "the faces of field '" + spec.name + "' have a course, but no concentration above 0",
-                      "give them one: `boundary: {all: 0.2 mM}`");
+  bool any_open = false;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (c.study.model.space.periodic(static_cast<int>(axis))) continue;
+    any_open = true;
+    if (std::ranges::any_of(spec.boundary[axis], is_held)) return;
+  }
+  if (any_open)
+    c.diagnostics.error(111, f.course.front().place, "the faces of field '" + spec.name + "' have a course, but no concentration above 0",
+                        "give them one: `boundary: {all: 0.2 mM}`");
+  else
+    c.diagnostics.error(111, f.course.front().place,
+                        "the faces of field '" + spec.name + "' have a course, but all faces of the domain are periodic",
+                        "leave the course out, or make faces `open` or `wall`");
 }
 
 }  // namespace

@@ -8,20 +8,40 @@
 namespace morula::scenarios {
 namespace {
 
-/// The volumes that a medium leaves the cell at rest must be such as a shell can have. A field may add to what is outside, but need not.
+/// What a field that adds to what is outside has at the start, and on faces of the domain at any time; {0}: there is none [mM].
+std::vector<double> levels_of_field(const BuildContext& c, const draft::Osmosis& d) {
+  const auto field = std::ranges::find_if(c.draft.fields, [&](const auto& one) { return d.field.given && one.name == d.field.value; });
+  if (field == c.draft.fields.end()) return {0.0};
+  fields::FieldSpec spec;
+  field->content.spec.write_to(spec);
+  std::vector<double> out{spec.initial}, factors;
+  for (const auto& point : field->content.course) factors.push_back(point.content.value.value);
+  if (factors.empty()) factors.push_back(1.0);
+  const draft::FieldBoundary& b = field->content.boundary;
+  for (const Given<double>* face : {&b.all, &b.x_low, &b.x_high, &b.y_low, &b.y_high, &b.z_low, &b.z_high})
+    for (const double factor : factors)
+      if (face->known() && face->value >= 0.0) out.push_back(face->value * factor);  // below 0: no flux
+  return out;
+}
+
+/// The volumes that a medium leaves the cell at rest must be such as a shell can have, alone and with what a field is known to add.
 void check_osmotic_volumes(BuildContext& c, const draft::Osmosis& d, const Osmosis& law) {
   constexpr double kLeast = 0.2, kMost = 10.0;
   std::vector<double> factors = law.course.value;
   if (factors.empty()) factors.push_back(1.0);
-  for (std::size_t i = 0; i < factors.size(); ++i) {
-    const double outside = law.outside * factors[i];
+  const std::vector<double> levels = levels_of_field(c, d);
+  for (std::size_t k = 0; k < factors.size() * levels.size(); ++k) {
+    const std::size_t i = k / levels.size();
+    const double of_field = levels[k % levels.size()], outside = law.outside * factors[i] + of_field;
     const double volume = law.inactive + (1.0 - law.inactive) * law.inside / std::max(outside, 1e-300);
     if (outside > 0.0 && volume >= kLeast && volume <= kMost) continue;
     const Place place = d.course.empty() ? (d.outside.given ? d.outside.place : d.inside.place) : d.course[i].content.value.place;
     const double most = (1.0 - law.inactive) * law.inside / std::max(0.01, kLeast - law.inactive);
     const double least = (1.0 - law.inactive) * law.inside / (kMost - law.inactive);
     c.diagnostics.error(536, place,
-                        "an osmolarity of " + short_number(outside) + " mM outside would leave the cell at " +
+                        "an osmolarity of " + short_number(outside) + " mM outside" +
+                            (d.field.given ? " (" + short_number(of_field) + " mM of it '" + d.field.value + "')" : std::string()) +
+                            " would leave the cell at " +
                             (outside > 0.0 ? short_number(volume) + " times its target volume" : std::string("no finite volume")),
                         law.inactive >= kLeast
                             ? "at least " + short_number(std::ceil(least)) + " mM"

@@ -196,9 +196,10 @@ void build_lumens(BuildContext& c) {
     const bool walls = std::ranges::any_of(boundary, [](const auto& axis) {
       return std::ranges::any_of(axis, [](BoundaryKind kind) { return kind == BoundaryKind::kWall; });
     });
-    if (lumen.by_sight && (walls || !c.draft.geometry.empty()))
-      c.diagnostics.warning(698, place, "the walls of the cavity '" + name + "' are cells alone: where an obstacle closes it, it is open",
-                            "cells all around it, or no obstacle near it");
+    if (!lumen.by_sight && (walls || !c.draft.geometry.empty()))
+      c.diagnostics.warning(698, place,
+                            "the cavity '" + name + "' is bounded by the faces of a mark alone: where an obstacle closes it, it is open",
+                            "`faces: seen`, which finds obstacles, too");
     if (lumen.mark >= 0) c.study.model.lumens.push_back(std::move(lumen));
   }
 }

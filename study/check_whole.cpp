@@ -33,7 +33,7 @@ void check_range(BuildContext& c, const Given<double>& range, const std::vector<
   for (std::size_t type = 0; type < c.draft.cell_types.size(); ++type) {
     const auto& [name, place, t] = c.draft.cell_types[type];
     if (!names.empty() && std::ranges::find(names, name) == names.end()) continue;
-    if (!t.nodes.known() || !t.radius.mean.known() || only_from_meshes(c.study, type)) continue;
+    if (!t.nodes.known() || !t.radius.mean.known() || only_from_meshes(c.study, type) || !may_be_shell(c, type)) continue;
     const double edge = mean_edge(t.nodes.value) * t.radius.mean.value;
     // Half an edge is where faces begin to feel more than their opposite; the rule is exact to how mean_edge rounds (0.55 L was measured good).
     // A mesh of its own is finer where the surface is curved.

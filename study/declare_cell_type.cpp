@@ -231,7 +231,7 @@ void declare_cell_type(Section& s, draft::CellType& t) {
   s.text({.name = "like",
           .doc = "Another cell type: what is not said here is as there, key by key in all sections; `key: default` takes a key of the "
                  "other back, as `phases: default` beside `model: none`. Adhesion, too, is that of the other, where neither of two types "
-                 "names the pair, or `others`.",
+                 "names the pair, or `others`; and what it takes from fields and gives to them, where a field does not name this type.",
           .example = "hepatocyte"},
          t.like);
   s.group({.name = "radius", .doc = "Radius of a cell at birth.", .shorthand = "mean", .example = "{mean: 6 um, spread: 10 %}"}, present,

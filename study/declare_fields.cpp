@@ -151,7 +151,8 @@ void declare_field(Section& s, draft::Field& f) {
   s.quantity({.name = "interval_tolerance",
               .doc = "Between two integrations the field waits while cells move and grow, up to five minutes or the tenth of a voxel that "
                      "a cell goes: as long as no "
-                     "concentration changes by more than this part of the largest one. 0: integrated after every step.",
+                     "concentration changes by more than this part of the largest one. Cells act on what they saw last. 0: integrated "
+                     "after every step.",
               .fallback = "5e-3",
               .low = 0.0,
               .high = 0.1,

@@ -332,7 +332,8 @@ void declare_study(Section& s, draft::Study& study) {
           &declare_lumen);
   s.named({.name = "apical", .doc = "Springs that hold marked faces near their mean sphere, by name."}, study.apical,
           &declare_apical_spring);
-  s.named({.name = "fields", .doc = "Diffusing concentrations, by name; any number of them."}, study.fields, &declare_field);
+  s.named({.name = "fields", .doc = "Diffusing concentrations, by name; any number of them. Obstacles do not hold them up."}, study.fields,
+          &declare_field);
   s.group({.name = "coupling", .doc = "Which cells are spheres and which are shells, and when that changes."}, present,
           [&](Section& c) { declare_coupling(c, study.coupling); });
   s.group({.name = "output", .doc = "What a run writes."}, present, [&](Section& o) { declare_output(o, study.output); });

@@ -282,9 +282,12 @@ constexpr ErrorCode kCodes[] = {
      "cells live "
      "in has no images: they would leave it."},
     {698, "cavity beside obstacles",
-     "A cavity that finds its faces by sight knows cells only. What an obstacle closes counts as an opening: the volume is taken from the "
-     "cells around, and "
-     "with less than half of all directions closed there is no pressure."},
+     "A cavity that finds its faces by sight is closed by obstacles and walls of the domain, too. One that is bounded by the faces of a "
+     "mark knows "
+     "these alone: what an obstacle closes counts as an opening, and with less than half of all directions closed there is no pressure."},
+    {699, "more memory than there is",
+     "Cells, nodes and voxels take a known amount of memory each; a field is solved by multigrid, which takes some 300 bytes a voxel. "
+     "What does not fit is ended by the system."},
     {700, "cycle that never ends",
      "A cell that divides at a volume must grow, in one phase at least; one that does not grow divides by the clock of its phases."},
     {701, "division below the size at birth", "A sizer's division volume must be larger than the mean birth volume of the type."},

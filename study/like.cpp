@@ -126,12 +126,44 @@ class LikeExpansion {
   std::size_t values_ = 0;
 };
 
+/// The entry of a type, or of the nearest that it is like, in a map by cell type; null: none of them stands there.
+const Node::Entry* entry_of(const Node& by_type, const Node& types, std::string name) {
+  for (std::size_t k = 0; k < kMostInARow; ++k) {
+    for (const Node::Entry& entry : by_type.entries)
+      if (entry.key == name) return &entry;
+    const Node* type = types.find(name);
+    const Node* like = type && type->kind == Node::Kind::kMap ? type->find("like") : nullptr;
+    if (!like || like->kind != Node::Kind::kScalar) return nullptr;
+    name = like->text;
+  }
+  return nullptr;
+}
+
+/// What cells of a type take from a field and give to it, those of a type that is like it do, too, where the field does not name them.
+void expand_reactions(Node& fields, const Declaration* declared, const Node& types) {
+  if (fields.kind != Node::Kind::kMap || !declared) return;
+  for (Node::Entry& field : fields.entries) {
+    if (field.value.kind != Node::Kind::kMap) continue;
+    for (Node::Entry& section : field.value.entries) {
+      const Declaration* of_section = child_of(declared, section.key);
+      if (!of_section || of_section->kind != Declaration::Kind::kNamed || section.value.kind != Node::Kind::kMap) continue;
+      std::vector<Node::Entry> more;
+      for (const Node::Entry& type : types.entries) {
+        const Node::Entry* entry = entry_of(section.value, types, type.key);
+        if (entry && entry->key != type.key) more.push_back({type.key, entry->key_place, entry->value});
+      }
+      section.value.entries.insert(section.value.entries.end(), more.begin(), more.end());
+    }
+  }
+}
+
 }  // namespace
 
 void expand_likes(Node& document, const Declaration& declared, Diagnostics& diagnostics) {
   Node* types = document.find("cell_types");
   if (!types || types->kind != Node::Kind::kMap || types->entries.size() > kMostTypes) return;
   LikeExpansion(*types, child_of(&declared, "cell_types"), diagnostics).expand_all();
+  if (Node* fields = document.find("fields")) expand_reactions(*fields, child_of(&declared, "fields"), *types);
 }
 
 }  // namespace morula::scenarios

@@ -48,11 +48,11 @@ class Section {
 
   virtual void quantity(const KeySpec& key, Given<double>& value) = 0;
   virtual void whole(const KeySpec& key, Given<std::uint64_t>& value) = 0;
-  virtual void word(const KeySpec& key, Given<std::string>& value) = 0;  ///< one of key.words
-  virtual void text(const KeySpec& key, Given<std::string>& value) = 0;  ///< any text
-  virtual void flag(const KeySpec& key, Given<bool>& value) = 0;         ///< true or false
-  virtual void vector(const KeySpec& key, Given<Vec3d>& value) = 0;      ///< [x, y, z]
-  virtual void vectors(const KeySpec& key, Given<std::vector<Vec3d>>& value) = 0;  ///< list of [x, y, z]; one alone is a list of one
+  virtual void word(const KeySpec& key, Given<std::string>& value) = 0;                ///< one of key.words
+  virtual void text(const KeySpec& key, Given<std::string>& value) = 0;                ///< any text
+  virtual void flag(const KeySpec& key, Given<bool>& value) = 0;                       ///< true or false
+  virtual void vector(const KeySpec& key, Given<Vec3d>& value) = 0;                    ///< [x, y, z]
+  virtual void vectors(const KeySpec& key, Given<std::vector<Vec3d>>& value) = 0;      ///< list of [x, y, z]; one alone is a list of one
   virtual void words(const KeySpec& key, Given<std::vector<std::string>>& value) = 0;  ///< list of words; key.words empty: any
   /// As words(), where a bare word stands for a list of one.
   virtual void one_or_more(const KeySpec& key, Given<std::vector<std::string>>& value) { words(key, value); }

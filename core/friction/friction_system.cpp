@@ -390,9 +390,10 @@ Result<SolveReport, SolveFault> FrictionSystem::solve(std::span<Float4> v, doubl
     });
   };
 
+  constexpr double kNoForce = 1e-20;  // [nN]; what is below is lost in float's products, and moves nothing
   const double b_norm = std::sqrt(dot(r_, r_, comm));
   if (!std::isfinite(b_norm)) return SolveFault{"the force is not a number"};
-  if (b_norm == 0.0) {
+  if (b_norm < kNoForce) {
     for_owned_points([&](std::uint32_t i) { v[i] = {}; });
     return SolveReport{};
   }

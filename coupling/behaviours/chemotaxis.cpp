@@ -13,7 +13,7 @@ double signal(const MigratingCell& cell, const OwnValues& own) {
   const double difference = 2.0 * cell.radius * norm(cell.sensed.gradient), c = std::max(cell.sensed.concentration, 0.0);
   const double binding = own("dissociation");
   if (binding > 0.0) return difference * binding / ((binding + c) * (binding + c));
-  return c > 0.0 ? difference / c : std::numeric_limits<double>::max();
+  return c > 0.0 ? difference / c : 0.0;  // below 0 there is but the error of the field's integration
 }
 
 /// Part of the speed that goes up the gradient: b = b_∞ s/(s + s_½).

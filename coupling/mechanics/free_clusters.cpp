@@ -173,6 +173,15 @@ std::vector<Vec3d> FreeClusters::shifts(std::span<const OutsideBalance> by_body,
   return out;
 }
 
+std::vector<std::uint32_t> FreeClusters::lone_shells(const Scene& scene) const {
+  std::vector<std::uint32_t> out;
+  for (const Cluster& cluster : clusters_)
+    if (cluster.last - cluster.first == 1 && members_[cluster.first] < scene.owned_shells() &&
+        !std::ranges::binary_search(over_ranks_.keys(), cluster.label))
+      out.push_back(members_[cluster.first]);
+  return out;
+}
+
 std::size_t FreeClusters::memory() const {
   return members_.capacity() * sizeof(members_[0]) + clusters_.capacity() * sizeof(clusters_[0]) + over_ranks_.memory();
 }

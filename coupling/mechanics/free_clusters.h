@@ -28,6 +28,8 @@ class FreeClusters {
   /// The velocity V = (Σ C)⁻¹ (Σ b − Σ C v) by body that each free cluster lacks [µm/s]; 0 for tied ones, for ghosts, and where nothing
   /// resists. The same bits on any number of ranks. Collective.
   [[nodiscard]] std::vector<Vec3d> shifts(std::span<const OutsideBalance> by_body, const Comm& comm) const;
+  /// The shells of this rank that are a cluster by themselves: nothing touches them but, perhaps, obstacles.
+  [[nodiscard]] std::vector<std::uint32_t> lone_shells(const Scene& scene) const;
   [[nodiscard]] std::size_t memory() const;
 
  private:

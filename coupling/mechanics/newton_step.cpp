@@ -44,11 +44,21 @@ struct Direction {
   Vec3d operator[](std::size_t i) const { return Vec3d{velocity[i].x, velocity[i].y, velocity[i].z} * factor; }
 };
 
+/// A node that its residual drives back from the end of a trial.
+struct DrivenBack {
+  std::uint32_t node;
+  Vec3d along;    ///< of that residual, of length 1
+  double way;     ///< of the trial, against it [µm]
+  double length;  ///< of the trial [µm]
+  double back;    ///< force against the trial's way [nN]
+};
+
 /// How a search along a direction went.
 struct Search {
-  bool moved = false;  ///< Φ is lower, or no higher than allowed; else the points are back, but for rounding
-  bool whole = false;  ///< it went all of its way
-  bool held = false;   ///< it did not, and has nodes that are to be held in the next
+  bool moved = false;              ///< Φ is lower, or no higher than allowed; else the points are back, but for rounding
+  bool whole = false;              ///< it went all of its way
+  bool held = false;               ///< it did not, and has nodes that are to be held in the next
+  std::vector<DrivenBack> back{};  ///< these; of this rank
 };
 
 /// How an iteration went.
@@ -98,8 +108,12 @@ class NewtonStep {
   [[nodiscard]] bool wants_too_much(const Direction& direction, double longest) const;
   /// Whether a trial ended at a place where a tissue can be.
   [[nodiscard]] bool is_sound(const Residual& trial);
-  /// Hold the nodes that a full step along `direction` took over a kink: its residual drives them back. Says whether there are any.
-  bool hold_driven_back(const Direction& direction, const Residual& trial);
+  /// The nodes in contact that a step along `direction` took over a kink, or into what is there: its residual drives them back. `any`: whether any rank
+  /// has some. Collective.
+  std::vector<DrivenBack> driven_back(const Direction& direction, const Residual& trial, bool& any);
+  /// Hold such nodes in the matrix. First where they meet what is there: as far as that is from where they are now, whose residual drives them; then,
+  /// and for good, where they are.
+  void hold(std::span<const DrivenBack> nodes, bool for_good);
   Result<Iteration, StepFault> iterate(int number);
   /// Freeze rule (time_stepping.md §9.3): the gradient in the metric of friction, then a short Newton step with an allowed rise. Says whether
   /// that moved anything; if not, all is at rest.
@@ -187,34 +201,50 @@ Search NewtonStep::search(const Direction& direction, int halvings, double allow
       return out;
     }
     // Not before: where the matrix is only too soft, a quarter of the way does not go too far.
-    if (k == kShortSearch) out.held = sound && hold_driven_back({direction.velocity, direction.factor * fraction}, *trial);
+    if (k == kShortSearch && sound) out.back = driven_back({direction.velocity, direction.factor * fraction}, *trial, out.held);
     if (k == kShortSearch && out.held && give_up_to_hold) break;
+    if (k == kShortSearch) hold(out.back, true);
     before = sound ? trial->phi : std::numeric_limits<double>::infinity();
   }
   go_to(0.0);
   return out;
 }
 
-bool NewtonStep::hold_driven_back(const Direction& direction, const Residual& trial) {
+std::vector<DrivenBack> NewtonStep::driven_back(const Direction& direction, const Residual& trial, bool& any) {
   const std::vector<Vec3d>& of_contacts = work_.terms.contacts->found().force;
-  const auto for_nodes_back = [&](auto&& function) {  // function(node, way, force against it), for nodes that touch something
-    for (const ContactBody& body : work_.scene.bodies())
-      if (body.active() && body.first_point < work_.scene.owned_nodes())
-        for (std::uint32_t i = body.first_point; i < body.first_point + body.point_count; ++i) {
-          if (i >= of_contacts.size() || norm2(of_contacts[i]) == 0.0) continue;
-          const Vec3d way = direction[i];
-          const double length = norm(way), back = -dot(trial.force[i], way);
-          if (back > 0.0) function(i, length, back / length);
-        }
-  };
+  std::vector<DrivenBack> out;
+  for (const ContactBody& body : work_.scene.bodies())
+    if (body.active() && body.first_point < work_.scene.owned_nodes())
+      for (std::uint32_t i = body.first_point; i < body.first_point + body.point_count; ++i) {
+        if (i >= of_contacts.size() || norm2(of_contacts[i]) == 0.0) continue;
+        const Vec3d way = direction[i];
+        const double length = norm(way), back = -dot(trial.force[i], way);
+        if (!(back > 0.0)) continue;
+        const Vec3d along = trial.force[i] * (1.0 / norm(trial.force[i]));
+        out.push_back({i, along, -dot(along, way), length, back / length});
+      }
   double most = 0.0;
-  for_nodes_back([&](std::uint32_t, double, double back) { most = std::max(most, back); });
+  for (const DrivenBack& node : out) most = std::max(most, node.back);
   most = work_.setting.comm.max(most);
-  for_nodes_back([&](std::uint32_t i, double length, double back) {
-    const Vec3d& force = trial.force[i];
-    if (back >= kHeldShare * most) work_.terms.kinks->hold(i, force * (1.0 / norm(force)), kHold * back / length);
-  });
-  return most > 0.0;
+  std::erase_if(out, [&](const DrivenBack& node) { return node.back < kHeldShare * most; });
+  any = most > 0.0;
+  return out;
+}
+
+void NewtonStep::hold(std::span<const DrivenBack> nodes, bool for_good) {
+  const Model& model = work_.setting.model;
+  double repulsion = model.contact.repulsion;
+  for (const ContactPair& pair : model.pairs) repulsion = std::max(repulsion, pair.repulsion);
+  for (const DrivenBack& node : nodes) {
+    double stiffness = kHold * node.back / node.length;
+    if (!for_good) {
+      // What is there pushes back with k_r A for each length that the node is in it: so it began that much before the end of the trial.
+      const double firm = repulsion * work_.geometry.now().node_area[node.node];
+      const double gap = std::max(0.0, node.way - node.back / firm), drive = -dot(now_->force[node.node], node.along);
+      stiffness = drive > 0.0 ? drive / (gap + drive / firm) : firm;
+    }
+    work_.terms.kinks->hold(node.node, node.along, stiffness);
+  }
 }
 
 Result<Iteration, StepFault> NewtonStep::iterate(int number) {
@@ -233,6 +263,7 @@ Result<Iteration, StepFault> NewtonStep::iterate(int number) {
     out.whole = search.whole;
     if (search.moved || !search.held || holds == kMostHolds) break;
     now_ = measure({});
+    hold(search.back, holds > 0);
   }
   ++report_.newton;
   if (!out.moved) {

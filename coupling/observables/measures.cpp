@@ -253,6 +253,8 @@ Measures measure(Simulation& simulation) {
   count_all(tissue, over, comm, out);
   out.overlap = over_ranks(deepest_overlap(simulation), comm);
   measure_fields(simulation, out);
+  const auto is_outside = [&](const Vec3d& c) { return !model.space.box.contains(model.space.wrapped(c)); };
+  if (!model.fields.empty()) out.outside_fields = comm.sum(static_cast<std::int64_t>(std::ranges::count_if(center, is_outside)));
   measure_packing(simulation, out);
   const auto range = simulation.mechanics().contacts_beyond_range();
   out.sphere_contacts = comm.sum(range.contacts);

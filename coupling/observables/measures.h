@@ -44,6 +44,7 @@ struct Measures {
   std::vector<LumenState> lumens;               ///< by lumen of the model
   std::vector<Vec3d> grip_force;                ///< of each load that is a grip on its cells; 0 for other loads [nN]
   std::vector<double> mean_field, least_field;  ///< by field, over voxels [mM]
+  std::int64_t outside_fields = 0;              ///< cells whose centre lies beyond a face of the domain, where there are fields
   /// |A − A_0 + taken + decayed − inflow| / max(A, A_0, taken, decayed, |inflow|) since time 0, A the amount in the field; by field.
   std::vector<double> field_balance;
 };

@@ -1,5 +1,6 @@
 #pragma once
 #include "fields/reaction_loop.h"
+#include "fields/reactions/dying_part.h"
 
 namespace morula::fields {
 /// What one cell makes at concentration c [amol/s]: S K/(K + c), less where there is much of it already (a product that inhibits its own making: Hill 1910 of
@@ -23,7 +24,8 @@ inline std::shared_ptr<const Reaction> secretion() {
                 .equation = "−S K/(K + c)",
                 .source = "Hill 1910, of first order, as inhibition",
                 .parameters = {given_by_study("rate", "amount rate", "amol/s", "S."),
-                               given_by_study("half_inhibition", "concentration", "mM", "K.")}},
+                               given_by_study("half_inhibition", "concentration", "mM", "K."),
+                               given_by_study("dying", "number", "1", "Part of S that a dying cell has.")}},
        .section = {.name = "secretion",
                    .doc = "What cells give to the field, by cell type: a rate, or rate and half inhibition.",
                    .shorthand = "rate",
@@ -43,12 +45,14 @@ inline std::shared_ptr<const Reaction> secretion() {
                   .low = 0.0,
                   .low_open = true,
                   .example = "0.1 mM",
-                  .source = "chosen: no inhibition"}}},
+                  .source = "chosen: no inhibition"}},
+                dying_part()},
        .where = Reaction::Where::kCells,
        .coefficients =
            [](const LawValues& values) {
              return ReactionCoefficients{values("rate"), values("half_inhibition")};
            },
+       .of_dying = with_part_of_dying,
        .never_acts = [](const LawValues& values) { return values("rate") == 0.0; }});
   return reaction;
 }

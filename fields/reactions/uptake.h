@@ -1,5 +1,6 @@
 #pragma once
 #include "fields/reaction_loop.h"
+#include "fields/reactions/dying_part.h"
 
 namespace morula::fields {
 /// What one cell takes at concentration c [amol/s]: V_max c/(K_m + c) (Michaelis & Menten 1913; physics: fields_and_coupling.md, A).
@@ -18,39 +19,42 @@ struct MichaelisMenten {
 };
 
 inline std::shared_ptr<const Reaction> uptake() {
-  static const auto reaction =
-      make_reaction<MichaelisMenten>({.info = {.name = "uptake",
-                                               .title = "Uptake by one cell",
-                                               .equation = "V_max c/(K_m + c)",
-                                               .source = "Michaelis & Menten 1913",
-                                               .parameters = {given_by_study("rate", "amount rate", "amol/s", "V_max."),
-                                                              given_by_study("half_saturation", "concentration", "mM", "K_m.")}},
-                                      .section = {.name = "uptake",
-                                                  .doc = "Uptake by cell type: a rate, or rate and half saturation.",
-                                                  .shorthand = "rate",
-                                                  .example = "{hepatocyte: 40 amol/s}"},
-                                      .keys = {{OwnKey::Kind::kQuantity,
-                                                {.name = "rate",
-                                                 .doc = "Uptake of one cell at plenty.",
-                                                 .quantity = Quantity::kAmountRate,
-                                                 .required = true,
-                                                 .low = 0.0,
-                                                 .example = "40 amol/s"}},
-                                               {OwnKey::Kind::kQuantity,
-                                                {.name = "half_saturation",
-                                                 .doc = "Concentration at which the uptake is half of that (Michaelis-Menten).",
-                                                 .quantity = Quantity::kConcentration,
-                                                 .fallback = "0.005 mM",
-                                                 .low = 0.0,
-                                                 .low_open = true,
-                                                 .example = "0.005 mM",
-                                                 .source = "chosen: order of oxygen uptake of mammalian cells"}}},
-                                      .where = Reaction::Where::kCells,
-                                      .coefficients =
-                                          [](const LawValues& values) {
-                                            return ReactionCoefficients{values("rate"), values("half_saturation")};
-                                          },
-                                      .never_acts = [](const LawValues& values) { return values("rate") == 0.0; }});
+  static const auto reaction = make_reaction<MichaelisMenten>(
+      {.info = {.name = "uptake",
+                .title = "Uptake by one cell",
+                .equation = "V_max c/(K_m + c)",
+                .source = "Michaelis & Menten 1913",
+                .parameters = {given_by_study("rate", "amount rate", "amol/s", "V_max."),
+                               given_by_study("half_saturation", "concentration", "mM", "K_m."),
+                               given_by_study("dying", "number", "1", "Part of V_max that a dying cell has.")}},
+       .section = {.name = "uptake",
+                   .doc = "Uptake by cell type: a rate, or rate and half saturation.",
+                   .shorthand = "rate",
+                   .example = "{hepatocyte: 40 amol/s}"},
+       .keys = {{OwnKey::Kind::kQuantity,
+                 {.name = "rate",
+                  .doc = "Uptake of one cell at plenty.",
+                  .quantity = Quantity::kAmountRate,
+                  .required = true,
+                  .low = 0.0,
+                  .example = "40 amol/s"}},
+                {OwnKey::Kind::kQuantity,
+                 {.name = "half_saturation",
+                  .doc = "Concentration at which the uptake is half of that (Michaelis-Menten). A "
+                         "millionth of what there is takes the full rate to the end.",
+                  .quantity = Quantity::kConcentration,
+                  .fallback = "0.005 mM",
+                  .low = 1e-8,
+                  .example = "0.005 mM",
+                  .source = "chosen: order of oxygen uptake of mammalian cells"}},
+                dying_part()},
+       .where = Reaction::Where::kCells,
+       .coefficients =
+           [](const LawValues& values) {
+             return ReactionCoefficients{values("rate"), values("half_saturation")};
+           },
+       .of_dying = with_part_of_dying,
+       .never_acts = [](const LawValues& values) { return values("rate") == 0.0; }});
   return reaction;
 }
 

@@ -15,7 +15,7 @@ namespace {
 bool is_numerics(const std::string& name) {
   static const std::set<std::string> names{"step_count",   "step_size",    "newton_iterations", "linear_iterations",  "retries",
                                            "volume_error", "overlap",      "worst_overlap",     "total_volume_error", "field_balance",
-                                           "energy",       "centre_drift", "rotation"};
+                                           "energy",       "centre_drift", "rotation",          "outside_fields"};
   return names.contains(name) || name.starts_with("balance_");
 }
 

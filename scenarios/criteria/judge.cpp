@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coupling/changing_box.h"
 #include "results/series_reader.h"
 #include "scenarios/criteria/judge_criteria.h"
 #include "scenarios/measures/verdicts.h"
@@ -101,6 +102,9 @@ Result<Judgement> common_criteria(const Study& study, const std::filesystem::pat
   if (!study.model.fields.empty())
     out.verdicts.push_back(at_most("LIMIT.field_balance", "balance of the amounts of every field, relative",
                                    largest(series.find("field_balance")), limits.field_balance));
+  if (!study.model.fields.empty() && !periodic_along_all_axes(study.model.space))
+    out.verdicts.push_back(at_most("LIMIT.outside_fields", "cells beyond the faces of the domain, where no field is",
+                                   largest(series.find("outside_fields")), 0.0));
   return out;
 }
 

@@ -19,7 +19,8 @@ std::vector<Hold> holds_of(const TimeCourse& course, const std::vector<double>& 
     add(1.0, 0.0, kNever, false);
     return out;
   }
-  bool rests = false;  // up to the point that is looked at
+  bool rests = course.time.front() > 0.0;  // up to the point that is looked at: before the first it has that value
+  if (rests) add(course.value.front(), 0.0, course.time.front(), false);
   for (std::size_t i = 1; i < course.time.size(); ++i) {
     const bool goes_on = course.value[i] == course.value[i - 1];
     if (goes_on) add(course.value[i], course.time[i - 1], course.time[i], rests);
@@ -29,6 +30,6 @@ std::vector<Hold> holds_of(const TimeCourse& course, const std::vector<double>& 
   return out;
 }
 
-const TimeCourse& course_of(const CellLoad& load) { return load.what == grip_load() ? load.way : load.course; }
+const TimeCourse& course_of(const CellLoad& load) { return load.what == grip_load() || !load.way.empty() ? load.way : load.course; }
 
 }  // namespace morula::scenarios

@@ -29,6 +29,7 @@ constexpr double kBytesPerNode = 2200.0, kBytesPerSphere = 2500.0;
 constexpr double kBytesPerVoxel = 20.0, kBytesToSolve = 290.0;
 constexpr double kBytesAlways = 3.0e7, kBytesReport = 6.5e7;     // measured: program and libraries; the pictures of the report
 constexpr std::int64_t kSampled = 20'000;                        // cells up to which places are made and steps are tried
+constexpr double kSampledVoxels = 1e6;                           // of all fields, with which they are tried
 constexpr double kSampleTime = 3.0, kMostSampleTime = 10.0;      // CPU time of the steps that are tried, more where they are few [s]
 constexpr std::size_t kSampleSteps = 16;                         // the first are taken back and cut: four say nothing of those that follow
 constexpr double kReportTime = 2.2, kStartTime = 0.3;            // CPU, measured on single-cell studies [s]
@@ -263,10 +264,33 @@ struct Tried {
   std::vector<TriedStep> steps;
 };
 
-/// Steps for kSampleTime, and until there are some.
+/// Voxels of all fields, and of the largest.
+struct Voxels {
+  std::int64_t all = 0, largest = 0;
+};
+
+Result<Voxels> count_voxels(const Model& model) {
+  Voxels out;
+  for (const fields::FieldSpec& spec : model.fields) {
+    MORULA_TRY_ASSIGN(const fields::Grid grid, fields::grid_for(spec, model.space));
+    out.all += grid.voxel_count();
+    out.largest = std::max(out.largest, grid.voxel_count());
+  }
+  return out;
+}
+
+double bytes_of(const Voxels& voxels) {
+  return kBytesPerVoxel * static_cast<double>(voxels.all) + kBytesToSolve * static_cast<double>(voxels.largest);
+}
+
+/// Steps for kSampleTime, and until there are some. Fields of many voxels are tried with larger ones, and cost as many times more as these are fewer.
 Result<Tried> try_steps(const Study& study, Tissue tissue) {
+  Model model = study.model;
+  MORULA_TRY_ASSIGN(const Voxels voxels, count_voxels(model));
+  const double fewer = std::max(1.0, static_cast<double>(voxels.all) / kSampledVoxels);
+  for (fields::FieldSpec& spec : model.fields) spec.voxel *= std::cbrt(fewer);
   const double start = cpu_time();
-  MORULA_TRY_ASSIGN(auto simulation, Simulation::create(study.model, std::move(tissue), Comm(), 1));
+  MORULA_TRY_ASSIGN(auto simulation, Simulation::create(std::move(model), std::move(tissue), Comm(), 1));
   MORULA_TRY(simulation->first_swaps());
   const double begin = cpu_time();
   std::vector<TriedStep> out;
@@ -278,7 +302,7 @@ Result<Tried> try_steps(const Study& study, Tissue tissue) {
   while (time() < study.time.end && !enough()) {
     const double landing = std::min(study.time.end, study.time.output * (std::floor(time() / study.time.output * (1.0 + 1e-12)) + 1.0));
     if (!simulation->step(landing).ok()) break;  // the run will tell; what was tried is what there is
-    out.push_back({time(), cpu_time() - begin});
+    out.push_back({time(), cpu_time() - begin + (fewer - 1.0) * simulation->timer().seconds(Stage::kFields)});
   }
   return Tried{begin - start, std::move(out)};
 }
@@ -352,6 +376,13 @@ Result<double> cost_of_run(const Study& study, double cells, const LaterBodies& 
 
 }  // namespace
 
+double memory_at_start(const Study& study) {
+  const Counts counts = count_entries(study);
+  const auto voxels = count_voxels(study.model);
+  return kBytesAlways + kBytesPerNode * static_cast<double>(counts.nodes) +
+         kBytesPerSphere * static_cast<double>(counts.cells - counts.shells) + (voxels.ok() ? bytes_of(*voxels) : 0.0);
+}
+
 Result<Estimate> estimate(const Study& study) {
   std::int64_t cells = 0;
   for (const InitialCells& block : study.initial) cells += static_cast<std::int64_t>(block.count);
@@ -370,17 +401,12 @@ Result<Estimate> estimate(const Study& study) {
   out.cells = counts.cells;
   out.shells = counts.shells;
   out.nodes = counts.nodes;
-  std::int64_t largest = 0;
-  for (const auto& spec : study.model.fields) {
-    MORULA_TRY_ASSIGN(const fields::Grid grid, fields::grid_for(spec, study.model.space));
-    out.voxels += grid.voxel_count();
-    largest = std::max(largest, grid.voxel_count());
-  }
+  MORULA_TRY_ASSIGN(const Voxels voxels, count_voxels(study.model));
+  out.voxels = voxels.all;
   const Load at_end = load_after(later.from.front().second, growth, study.time.end);
   out.cells_at_end = at_end.spheres + at_end.shells;
   out.memory = kBytesAlways + (study.output.report ? kBytesReport : 0.0) + kBytesPerNode * later.most_nodes +
-               kBytesPerSphere * at_end.spheres + kBytesPerVoxel * static_cast<double>(out.voxels) +
-               kBytesToSolve * static_cast<double>(largest);
+               kBytesPerSphere * at_end.spheres + bytes_of(voxels);
   MORULA_TRY_ASSIGN(const double from_there,
                     cost_of_run(study, static_cast<double>(counts.cells), later, growth, tissue ? &*tissue : nullptr));
   const double middle = placing + from_there, range = tissue ? 1.6 : 3.0;

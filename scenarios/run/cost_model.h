@@ -72,6 +72,9 @@ struct Estimate {
 /// the range: 3 times each way. A run that comes to rest (`time.rest`) ends earlier, and what begins later than the steps that are tried is not foreseen.
 Result<Estimate> estimate(const Study& study);
 
+/// Memory that a run needs from its start, by the numbers of the study alone [bytes]; at once, whatever the study.
+double memory_at_start(const Study& study);
+
 /// "9 min", "1 h 21 min", "35–50 min" for people.
 std::string duration_text(double seconds);
 std::string duration_text(const WallRange& range);

@@ -24,7 +24,7 @@ Result<std::vector<Observable>> columns_of(const Study& study) {
     };
     const std::vector<std::string> known = observable_names(study.model, *study.laws);
     for (const char* of_every_run : {"cell_count", "shell_count", "volume_error", "overlap", "worst_overlap", "energy", "step_count",
-                                     "step_size", "field_balance", "nucleus_clearance"})
+                                     "step_size", "field_balance", "outside_fields", "nucleus_clearance"})
       if (std::find(known.begin(), known.end(), of_every_run) != known.end()) need(of_every_run);
     for (const std::string& of_study : series_columns(study)) need(of_study);
   }

@@ -32,6 +32,13 @@ void add_shell_laws(const Laws& laws, const std::string& whose, const dcm::Shell
     }
 }
 
+/// Friction of spheres with the medium, by the law that shells have, too.
+void add_sphere_friction(const Laws& laws, const CellType& type, std::vector<UsedLaw>& out) {
+  for (const dcm::ShellLaw& law : laws.shells)
+    if (law.info.name == "medium_friction")
+      out.push_back({"spheres of " + type.name, law.info, {{law.info.parameters[0].name, type.medium_friction}}});
+}
+
 /// Nucleus and links of one type.
 void add_interior_laws(const CellType& type, std::vector<UsedLaw>& out) {
   const dcm::InteriorParameters& p = type.interior;
@@ -52,7 +59,13 @@ void add_interior_laws(const CellType& type, std::vector<UsedLaw>& out) {
   }
 }
 
-void add_contacts(const Model& model, bool shells, bool spheres, std::vector<UsedLaw>& out) {
+/// Which bodies the cells of a type may have.
+struct Bodies {
+  bool shell = false, sphere = false;
+};
+
+void add_contacts(const Model& model, std::span<const Bodies> bodies, std::vector<UsedLaw>& out) {
+  const bool shells = std::ranges::any_of(bodies, &Bodies::shell);
   const auto name = [&](std::size_t m) {
     return m < model.types.size() ? model.types[m].name : model.obstacles[m - model.types.size()].name;
   };
@@ -72,7 +85,8 @@ void add_contacts(const Model& model, bool shells, bool spheres, std::vector<Use
       }
       if (shells && a == b && model.types[a].self_contact > 0.0)
         out.push_back({purpose, law_named(surface_contact_terms(), "self_contact"), {{"self_contact", model.types[a].self_contact}}});
-      if (!shells && b < model.types.size()) continue;
+      if (!bodies[a].shell && (b >= model.types.size() || !bodies[b].shell))
+        continue;  // spheres have a law of their own, on obstacles, too
       Values values{{"range", pair.range > 0.0 ? pair.range : model.contact.range},
                     {"repulsion", pair.repulsion > 0.0 ? pair.repulsion : model.contact.repulsion}};
       for (const KeySpec& key : pair.law->own) values.emplace_back(key.name, pair.own(key.name));
@@ -80,9 +94,9 @@ void add_contacts(const Model& model, bool shells, bool spheres, std::vector<Use
     }
   if (shells && model.contact.objective_friction)
     out.push_back({"contact of surfaces", law_named(surface_contact_terms(), "objective_friction"), {}});
-  if (!spheres) return;
   for (std::size_t t = 0; t < model.types.size(); ++t) {
     const CellType& type = model.types[t];
+    if (!bodies[t].sphere) continue;
     const double adhesion = model.pair(t, t).adhesion * type.sphere.adhesion_factor;
     Values values{{"young", type.sphere.young}, {"poisson", type.sphere.poisson}, {"adhesion", adhesion}};
     for (const KeySpec& key : type.sphere.law->own) values.emplace_back(key.name, type.sphere.own(key.name));
@@ -216,6 +230,7 @@ void add_fields(const Model& model, std::vector<UsedLaw>& out) {
                    {{"diffusion", spec.diffusion}, {"initial", spec.initial}, {"voxel", spec.voxel}}});
     for (const fields::FieldReaction& one : spec.reactions) {
       const bool of_cells = one.what->where == fields::Reaction::Where::kCells;
+      if (of_cells && one.type >= model.types.size()) continue;  // of dying cells: the part of them is told with the others
       Values values;
       for (const LawParameter& parameter : one.what->info.parameters) values.emplace_back(parameter.name, one.values(parameter.name));
       out.push_back({one.what->info.name + " of " + spec.name + (of_cells ? " by " + model.types[one.type].name : ""), one.what->info,
@@ -242,29 +257,32 @@ void add_loads(const Model& model, std::vector<UsedLaw>& out) {
 
 std::vector<UsedLaw> used_laws(const Study& study) {
   const Model& model = study.model;
-  bool shells = !model.swaps.triggers.empty() || model.swaps.by_fate, spheres = model.swaps.by_fate;
-  for (const Region& region : model.swaps.regions) (region.body == BodyKind::kShell ? shells : spheres) = true;
-  std::vector<bool> given(model.types.size(), false);
-  for (const InitialCells& block : study.initial)
-    if (block.body_given)
-      (block.body == BodyKind::kShell ? shells : spheres) = true;
-    else
-      for (std::size_t t = 0; t < model.types.size(); ++t) given[t] = given[t] || block.may_have(t);
-  for (std::size_t t = 0; t < model.types.size(); ++t)
-    if (given[t]) (model.types[t].initial_body == BodyKind::kShell ? shells : spheres) = true;
+  std::vector<Bodies> bodies(model.types.size());
+  const auto may_be = [&](std::size_t type, BodyKind body) {
+    (body == BodyKind::kShell ? bodies[type].shell : bodies[type].sphere) = true;
+  };
+  for (std::size_t t = 0; t < model.types.size(); ++t) {
+    if (!model.swaps.triggers.empty() || model.swaps.by_fate) bodies[t] = {true, true};
+    for (const Region& region : model.swaps.regions) may_be(t, region.body);
+    for (const InitialCells& block : study.initial)
+      if (block.may_have(t)) may_be(t, block.body_given ? block.body : model.types[t].initial_body);
+    if (!bodies[t].shell && !bodies[t].sphere) may_be(t, model.types[t].initial_body);  // of daughters
+  }
   std::vector<UsedLaw> out;
-  for (const CellType& type : model.types) {
-    if (!shells) break;
+  for (std::size_t t = 0; t < model.types.size(); ++t) {
+    const CellType& type = model.types[t];
+    if (bodies[t].sphere && !bodies[t].shell) add_sphere_friction(*study.laws, type, out);
+    if (!bodies[t].shell) continue;
     add_shell_laws(*study.laws, "shell of " + type.name, type.shell, out);
     if (type.interior.has_nuclear_shell()) add_shell_laws(*study.laws, "nucleus of " + type.name, type.interior.nucleus_shell, out);
     add_interior_laws(type, out);
   }
-  add_contacts(model, shells, spheres, out);
+  add_contacts(model, bodies, out);
   for (const CellType& type : model.types) add_behaviours(type, out);
   add_fields(model, out);
   add_loads(model, out);
   add_swaps(model.swaps, out);
-  add_active_laws(model, shells, out);
+  add_active_laws(model, std::ranges::any_of(bodies, &Bodies::shell), out);
   return out;
 }
 

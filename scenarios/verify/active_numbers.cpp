@@ -72,7 +72,7 @@ double marked_part_of_a_cavity() {
   Tissue tissue;
   put_together(tissue, std::move(cells));
   mark_new_shells(model, tissue);
-  look_into_lumens(model, tissue, Comm());
+  look_into_lumens(model, {}, tissue, Comm());
   return tissue.lumens[0].covered;
 }
 

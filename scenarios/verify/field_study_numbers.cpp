@@ -114,7 +114,7 @@ void add_field_study_numbers(std::vector<ReferenceNumber>& out) {
                                  "domain: {size: [420 um, 420 um, 420 um], boundary: open}\ncell_types: {cell: {radius: 100 um}}\n"
                                  "initial:\n  - {type: cell, at: [[0 um, 0 um, 0 um]], as: sphere}\n"
                                  "fields:\n  food: {diffusion: 2e-9 m^2/s, initial: 0.2 mM, voxel: 20 um, boundary: {all: 0.2 mM}, "
-                                 "uptake: {cell: {rate: 185185.12 amol/s, half_saturation: 1e-9 mM}}}\n");
+                                 "uptake: {cell: {rate: 185185.12 amol/s, half_saturation: 1e-8 mM}}}\n");
   out.push_back({"A 5", "study: uptake of a ball of 100 um by the profile of the field around and in it, over that of the study", 1.0, 0.02,
                  "closed form q (R^2 - r^2)/(6 D); voxels of R/5 that the rim cuts: (h/R)^2/2",
                  [ball] { return uptake_from_profile(ball->found(), 100.0, 2000.0, 185185.12); }});

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "coupling/face_marks.h"
+#include "coupling/mechanics/contact_setup.h"
 #include "coupling/sight.h"
 #include "coupling/simulation.h"
 #include "tests/coupling/tissue_fixture.h"
@@ -63,7 +64,7 @@ TEST(Lumen, FacesInSightCloseTheCavityAndEncloseItsVolume) {
   const Model model = model_of_cavity();
   ShapeLibrary shapes;
   Tissue tissue = closed_cavity(model, shapes);
-  look_into_lumens(model, tissue, Comm());
+  look_into_lumens(model, {}, tissue, Comm());
   ASSERT_EQ(tissue.lumens.size(), 1u);
   const LumenState& state = tissue.lumens[0];
   EXPECT_NEAR(state.covered, 1.0, 0.04);  // T15.2; the rims of neighbours meet within the size of a face
@@ -92,7 +93,7 @@ TEST(Lumen, SpheresAmongItsWallsBoundItToo) {
   centers[3] = centers[3] * 0.8;  // bulges into the cavity
   Tissue tissue = test::make_tissue(model, shapes, centers, bodies, 642, kRadius);
   mark_new_shells(model, tissue);
-  look_into_lumens(model, tissue, Comm());
+  look_into_lumens(model, {}, tissue, Comm());
   EXPECT_NEAR(tissue.lumens[0].covered, 1.0, 0.04);
   EXPECT_NEAR(tissue.lumens[0].volume / enclosed_between_balls(centers), 1.0, 0.04);
 }
@@ -101,7 +102,7 @@ TEST(Lumen, PushesOutwardsWithoutDrivingTheTissue) {
   const Model model = model_of_cavity();
   ShapeLibrary shapes;
   Tissue tissue = closed_cavity(model, shapes);
-  look_into_lumens(model, tissue, Comm());
+  look_into_lumens(model, {}, tissue, Comm());
   std::vector<Vec3d> force(tissue.shells.node_count());
   add_lumen_forces(model, tissue, 0.0, Comm(), force);
   Vec3d sum{};
@@ -135,7 +136,7 @@ TEST(Lumen, KeptSolutePressesByItsConcentration) {
   model.lumens[0].keeps_solute = true;
   ShapeLibrary shapes;
   Tissue tissue = closed_cavity(model, shapes, 162);
-  look_into_lumens(model, tissue, Comm());
+  look_into_lumens(model, {}, tissue, Comm());
   const double volume = tissue.lumens[0].volume;
   EXPECT_NEAR(tissue.lumens[0].amount, 0.02 * volume / 2.578731, 1e-12 * volume);  // 19.389 µM are 50 Pa
   EXPECT_NEAR(tissue.lumens[0].pressure, 0.02, 1e-15);
@@ -162,12 +163,94 @@ TEST(Lumen, OpensWhenAWallIsTakenAway) {
   const Model model = model_of_cavity();
   ShapeLibrary shapes;
   Tissue tissue = closed_cavity(model, shapes, 162);
-  look_into_lumens(model, tissue, Comm());
+  look_into_lumens(model, {}, tissue, Comm());
   const double closed = tissue.lumens[0].covered;
   for (Vec3d& x : tissue.shells.nodes(0)) x += normalized(walls()[0]) * 80.0;
   tissue.clock.time = 300.0;
-  look_into_lumens(model, tissue, Comm());
+  look_into_lumens(model, {}, tissue, Comm());
   EXPECT_LT(tissue.lumens[0].covered, closed - 0.03);
+}
+
+/// The body of the first of the twelve is a block with a flat face to the cavity.
+TEST(Lumen, IsClosedByObstaclesThatBearTheirPart) {
+  Model model = model_of_cavity();
+  const Vec3d out = normalized(walls()[0]), across = normalized(cross(out, Vec3d{1, 0, 0})), third = cross(out, across);
+  ObstacleSpec block;
+  block.name = "block";
+  constexpr double kFace = 14.0;
+  for (const double z : {kFace, 40.0})
+    for (const double y : {-18.0, 18.0})
+      for (const double x : {-18.0, 18.0}) block.position.push_back(out * z + across * x + third * y);
+  block.faces = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                 {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  const auto centers = [&] {
+    std::vector<Vec3d> all = walls();
+    all.erase(all.begin());
+    return all;
+  }();
+  const auto net = [&](const std::vector<ObstacleSpec>& obstacles, Tissue& tissue) {
+    Model with = model;
+    with.obstacles = obstacles;
+    with.pairs.assign(with.material_count() * with.material_count(), ContactPair{});
+    const auto surfaces = contact_obstacles(with).value();
+    tissue.obstacle_offset.assign(surfaces.size(), {});
+    look_into_lumens(with, surfaces, tissue, Comm());
+    std::vector<Vec3d> force(tissue.shells.node_count());
+    add_lumen_forces(with, tissue, 0.0, Comm(), force);
+    Vec3d sum{};
+    for (const Vec3d& f : force) sum += f;
+    return sum;
+  };
+  ShapeLibrary shapes;
+  Tissue open = test::make_tissue(model, shapes, centers, std::vector(11, BodyKind::kShell), 642, kRadius);
+  mark_new_shells(model, open);
+  Tissue closed = open;
+  const Vec3d without = net({}, open);
+  EXPECT_LT(norm(without), 1e-12 * 0.02 * open.lumens[0].area);
+  EXPECT_LT(open.lumens[0].covered, 0.95);
+
+  const Vec3d on_cells = net({block}, closed);
+  const LumenState& state = closed.lumens[0];
+  EXPECT_NEAR(state.covered, 1.0, 0.04);
+  // What the block bears: P times the part of its face between the eleven balls; the cells bear the opposite.
+  double volume = 0.0, face = 0.0;
+  constexpr int kCount = 200000;
+  for (int i = 0; i < kCount; ++i) {  // Fibonacci points
+    const double z = 1.0 - (2.0 * i + 1.0) / kCount, rho = std::sqrt(1.0 - z * z), angle = 2.399963229728653 * i;
+    const Vec3d ray{rho * std::cos(angle), rho * std::sin(angle), z};
+    const double along = dot(ray, out), plane = along > 0.0 ? kFace / along : 1e300;
+    double nearest = plane;
+    for (const Vec3d& c : centers) {
+      const double half = dot(ray, c), root = half * half - (norm2(c) - kRadius * kRadius);
+      if (root >= 0.0 && half - std::sqrt(root) > 0.0) nearest = std::min(nearest, half - std::sqrt(root));
+    }
+    volume += nearest * nearest * nearest / 3.0;
+    if (nearest == plane) face += plane * plane / along;
+  }
+  volume *= 4.0 * std::numbers::pi / kCount, face *= 4.0 * std::numbers::pi / kCount;
+  EXPECT_NEAR(state.volume / volume, 1.0, 0.04);
+  EXPECT_NEAR(state.wall_x * out.x + state.wall_y * out.y + state.wall_z * out.z, face, 0.04 * face);
+  EXPECT_NEAR(-dot(on_cells, out), 0.02 * face, 0.04 * 0.02 * face);
+  EXPECT_LT(norm(cross(on_cells, out)), 0.02 * 0.02 * face);
+}
+
+TEST(SightMap, MeasuresWhatItSeesOfAWall) {
+  SightMap map({0, 0, 0}, 50.0);
+  map.add_wall({-10, -10, -5}, {10, -10, -5}, {10, 10, -5});  // turned either way
+  map.add_wall({-10, -10, -5}, {-10, 10, -5}, {10, 10, -5});
+  map.add_wall({-40, -40, -8}, {40, -40, -8}, {0, 3, -8});  // behind it, for the most part beside it
+  map.join(Comm());
+  EXPECT_TRUE(map.seen().empty());
+  SightMap square({0, 0, 0}, 50.0);
+  square.add_wall({-10, -10, -5}, {10, -10, -5}, {10, 10, -5});
+  square.add_wall({-10, -10, -5}, {-10, 10, -5}, {10, 10, -5});
+  square.join(Comm());
+  const auto seen = square.in_the_way(Comm());
+  EXPECT_NEAR(seen.volume / (400.0 * 5.0 / 3.0), 1.0, 5e-3);
+  EXPECT_NEAR(seen.directions, 4.0 * std::asin(100.0 / 125.0) / (4.0 * std::numbers::pi), 1e-3);
+  EXPECT_NEAR(seen.wall.z, -400.0, 2.0);
+  EXPECT_NEAR(norm(seen.wall + Vec3d{0, 0, -seen.wall.z}), 0.0, 1.0);
+  EXPECT_GT(map.in_the_way(Comm()).directions, seen.directions);
 }
 
 TEST(SightMap, SeesTheNearestTriangleAndMeasuresTheSky) {
@@ -192,11 +275,11 @@ TEST(SightMap, SeesTheNearestTriangleAndMeasuresTheSky) {
   // Between the eye and the ball: the cone that touches it, without the cap that reaches into the cone.
   const double side = std::sqrt(20.0 * 20.0 - 10.0 * 10.0), height = side * side / 20.0, base = side * 10.0 / 20.0, cap = height - 10.0;
   const double between = std::numbers::pi * (base * base * height - cap * cap * (30.0 - cap)) / 3.0;
-  EXPECT_NEAR(ball.balls(Comm()).volume / between, 1.0, 1e-2);
-  EXPECT_NEAR(ball.balls(Comm()).directions, ball.covered(), 1e-12);
+  EXPECT_NEAR(ball.in_the_way(Comm()).volume / between, 1.0, 1e-2);
+  EXPECT_NEAR(ball.in_the_way(Comm()).directions, ball.covered(), 1e-12);
   ball.add_triangle({-30, 5, -30}, {30, 5, -30}, {0, 5, 60}, 0);  // before the ball
   ball.join(Comm());
-  EXPECT_EQ(ball.balls(Comm()).volume, 0.0);
+  EXPECT_EQ(ball.in_the_way(Comm()).volume, 0.0);
 }
 
 /// A cavity that is kept open by its fluid: it grows under pressure, and steps stay sound.

@@ -44,17 +44,18 @@ std::vector<VoxelWeight> weights_of(const Grid& grid, const Space& space, const 
   return out;
 }
 
-/// A box that covers voxels by known parts: along x from 12 to 30 in voxels of 10, along y from 15 to 20, along z from 7.5 to 25.
+/// A box that covers voxels by known parts: along x from 24 to 60 in voxels of 10, along y from 30 to 40, along z from 15 to 50.
 TEST(SurfaceWeights, OfABoxAreItsPartsInTheVoxels) {
   const Space space = cube(80.0);
   const Grid grid = grid_of(10.0, space);
-  const Vec3d center{21.0, 17.5, 16.25};
-  const auto weights = weights_of(grid, space, moved(make_box({18.0, 5.0, 17.5}, 100.0).value(), center), center);
-  const double x[4] = {0.0, 8.0 / 18.0, 10.0 / 18.0, 0.0}, z[3] = {2.5 / 17.5, 10.0 / 17.5, 5.0 / 17.5};
-  // Lines stand at the middles of strips of 10/24: a face of the box misses at most half a strip.
-  for (int i = 0; i < 4; ++i)
-    for (int k = 0; k < 3; ++k) EXPECT_NEAR(weight_at(grid, weights, i, 1, k), x[i] * z[k], 0.5 * 10.0 / 24.0 / 18.0) << i << k;
-  EXPECT_EQ(weight_at(grid, weights, 1, 0, 1) + weight_at(grid, weights, 1, 2, 1), 0.0);
+  const Vec3d center{42.0, 35.0, 32.5};
+  const auto weights = weights_of(grid, space, moved(make_box({36.0, 10.0, 35.0}, 100.0).value(), center), center);
+  const double x[7] = {0.0, 0.0, 6.0 / 36.0, 10.0 / 36.0, 10.0 / 36.0, 10.0 / 36.0, 0.0};
+  const double z[6] = {0.0, 5.0 / 35.0, 10.0 / 35.0, 10.0 / 35.0, 10.0 / 35.0, 0.0};
+  // Lines stand at the middles of strips of 10/12: a face of the box misses at most half a strip.
+  for (int i = 0; i < 7; ++i)
+    for (int k = 0; k < 6; ++k) EXPECT_NEAR(weight_at(grid, weights, i, 3, k), x[i] * z[k], 0.5 * 10.0 / 12.0 / 36.0) << i << k;
+  EXPECT_EQ(weight_at(grid, weights, 3, 2, 2) + weight_at(grid, weights, 3, 4, 2), 0.0);
   EXPECT_EQ(sum_of(weights), 1.0);
 }
 
@@ -63,7 +64,7 @@ TEST(SurfaceWeights, OfAnIcosphereAreThoseOfTheBall) {
   const Space space = cube(64.0);
   const double radius = 6.0;
   const Vec3d center{33.1, 31.4, 30.3};
-  for (const double voxel : {2.0, 8.0}) {
+  for (const double voxel : {2.0, 4.0}) {
     const Grid grid = grid_of(voxel, space);
     const auto weights = weights_of(grid, space, moved(make_sphere(radius, 4).value(), center), center);
     const int n = static_cast<int>(64.0 / voxel);
@@ -82,6 +83,29 @@ TEST(SurfaceWeights, OfAnIcosphereAreThoseOfTheBall) {
     }
     EXPECT_EQ(sum_of(weights), 1.0);
   }
+}
+
+/// The same cell as a sphere and as a shell sees the same and takes it from the same voxels, whatever the size of these.
+TEST(SurfaceWeights, AreThoseOfTheSphere) {
+  const Space space = cube(80.0);
+  const Grid grid = grid_of(10.0, space);
+  std::vector<VoxelWeight> of_sphere;
+  for (const double radius : {3.0, 4.9, 5.1, 6.0, 8.0, 11.0})
+    for (int k = 0; k < 10; ++k) {
+      const Vec3d center{33.1 + 1.1 * k, 41.4 - 0.7 * k, 36.3 + 0.9 * k};
+      TriangleMesh mesh = make_sphere(radius, 2).value();
+      double volume = 0.0;
+      for (const Triangle& t : mesh.faces) volume += dot(mesh.position[t[0]], cross(mesh.position[t[1]], mesh.position[t[2]])) / 6.0;
+      const double scale = radius / std::cbrt(3.0 * volume / (4.0 * std::numbers::pi));
+      for (Vec3d& x : mesh.position) x = x * scale + center;
+      sphere_weights(grid, space, center, radius, of_sphere);
+      const auto of_shell = weights_of(grid, space, mesh, center);
+      double differ = 0.0;
+      for (int x = 0; x < 8; ++x)
+        for (int y = 0; y < 8; ++y)
+          for (int z = 0; z < 8; ++z) differ += 0.5 * std::abs(weight_at(grid, of_shell, x, y, z) - weight_at(grid, of_sphere, x, y, z));
+      EXPECT_LT(differ, radius < 5.0 ? 1e-12 : 0.01) << radius << " " << k;
+    }
 }
 
 /// A flat disc lies in one layer of voxels, where the ball of its volume would reach into three.

@@ -87,7 +87,7 @@ TEST(NeighboursOnRanks, TheMapOfSightIsThatOfOneRankAndGrowsWithNoRanks) {
   EXPECT_GT(single.covered(), 0.1);
   EXPECT_EQ(together.covered(), single.covered());
   EXPECT_EQ(world.sum(static_cast<std::int64_t>(together.seen().size())), static_cast<std::int64_t>(single.seen().size()));
-  const auto all = together.balls(world), one = single.balls(alone);
+  const auto all = together.in_the_way(world), one = single.in_the_way(alone);
   EXPECT_GT(one.volume, 0.0);
   EXPECT_EQ(all.volume, one.volume);
   EXPECT_EQ(all.directions, one.directions);

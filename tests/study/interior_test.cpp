@@ -85,6 +85,25 @@ TEST(InteriorKeys, WrongOnesAreRefusedWithPlaceAndHelp) {
   EXPECT_THAT(errors_of(with_type_key("osmosis: {inactive: 95 %}")), HasSubstr("[E302]"));
 }
 
+/// What a field adds to the medium, at the start and on the faces of the domain.
+TEST(InteriorKeys, OsmolaritiesAreJudgedWithWhatAFieldAdds) {
+  const auto text = [](const std::string& osmosis, const std::string& field) {
+    return "schema: 1\nstudy: salt\ntime: {end: 1 h}\ndomain: {size: [100 um, 100 um, 100 um]}\ncell_types:\n  a: {body: shell, cycle: "
+           "{model: none}, osmosis: {" +
+           osmosis + ", field: salt}}\ninitial: [{type: a, at: [0 um, 0 um, 0 um]}]\nfields: {salt: {diffusion: 1000 um^2/s, " + field +
+           "}}\n";
+  };
+  const auto told = [&text](const std::string& osmosis, const std::string& field) { return errors_of(text(osmosis, field)); };
+  EXPECT_TRUE(read(text("outside: 1 mM", "initial: 299 mM")).ok());
+  EXPECT_TRUE(read(text("outside: 150 mM", "initial: 150 mM, boundary: 300 mM")).ok());
+  EXPECT_THAT(told("outside: 1 mM", "initial: 0 mM, boundary: 299 mM"), AllOf(HasSubstr("[E536]"), HasSubstr("(0 mM of it 'salt')")));
+  EXPECT_THAT(told("outside: 300 mM, inactive: 10 %", "initial: 0 mM, boundary: 5000 mM"),
+              AllOf(HasSubstr("an osmolarity of 5300 mM outside (5000 mM of it 'salt')"), HasSubstr("[E536]")));
+  EXPECT_THAT(told("outside: 300 mM, inactive: 10 %",
+                   "initial: 0 mM, boundary: {x_low: 100 mM}, course: [{time: 0 h, factor: 1}, {time: 1 h, factor: 50}]"),
+              HasSubstr("(5000 mM of it 'salt')"));
+}
+
 TEST(InteriorKeys, ThatDoNotGoTogetherAreRefused) {
   const std::string nucleus = with_shell_key("nucleus: {volume_fraction: 40 %}");
   EXPECT_THAT(errors_of(changed("    cbm: {law", "    osmosis: {}\n    cbm: {law", nucleus)),

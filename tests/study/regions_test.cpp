@@ -198,8 +198,8 @@ TEST(Regions, TurnoverIsFollowedInTenStepsATime) {
 }
 
 TEST(Regions, CavitiesBesideObstaclesAreWarnedOf) {
-  EXPECT_NE(test::warnings_of(kStudy).find("the walls of the cavity 'gap' are cells alone"), std::string::npos);
-  EXPECT_EQ(test::warnings_of(kStudy).find("cavity 'inner'"), std::string::npos) << "its faces are marked";
+  EXPECT_NE(test::warnings_of(kStudy).find("the cavity 'inner' is bounded by the faces of a mark alone"), std::string::npos);
+  EXPECT_EQ(test::warnings_of(kStudy).find("cavity 'gap'"), std::string::npos) << "it is seen";
 }
 
 TEST(Regions, ValuesOutOfRangeAndWithoutEffectAreRefused) {

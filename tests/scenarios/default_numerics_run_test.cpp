@@ -1,0 +1,100 @@
+/// What runs must get right with the numerics that a study has when it says nothing about them.
+#include <cmath>
+#include <numbers>
+
+#include "scenarios/measures/holds.h"
+#include "tests/scenarios/own_parts.h"
+
+namespace morula::scenarios::test {
+namespace {
+
+class DefaultNumerics : public OwnParts {
+ protected:
+  DefaultNumerics() : OwnParts([](Laws&) {}) {}
+};
+
+/// A couple of two patches turns a ball against the drag of the medium, 8πγR⁴/3. The area of a cap of 5 % has its middle at 0.95 R.
+TEST_F(DefaultNumerics, AShellTurnsAsFastAsItsTorqueAsks) {
+  for (const double force : {0.01, 0.05}) {
+    const std::string name = "turn" + std::to_string(force);
+    run_whole(R"(schema: 1
+study: couple
+time: {end: 5 min, output: 1 min}
+domain: {size: [60 um, 60 um, 60 um]}
+cell_types:
+  c: {radius: 6 um, body: shell, adhesion: {others: 0 mN/m}, dcm: {nodes: 642, cortex: {young: 10 kPa}}, friction: {medium: 1e8 N s/m^3}}
+initial: [{type: c, at: [0 um, 0 um, 0 um], orientation: aligned}]
+loads:
+  r: {type: c, patch: {force: [0 nN, )" +
+                  std::to_string(force) + R"( nN, 0 nN], toward: [1, 0, 0], part: 5 %}}
+  l: {type: c, patch: {force: [0 nN, -)" +
+                  std::to_string(force) + R"( nN, 0 nN], toward: [-1, 0, 0], part: 5 %}}
+output: {report: false}
+)",
+              name);
+    const double drag = 8.0 * std::numbers::pi / 3.0 * 0.1 * std::pow(6.0, 4), torque = 2.0 * force * 0.95 * 6.0;
+    EXPECT_NEAR(column(name, "rotation").back(), torque / drag * 300.0, 0.03 * torque / drag * 300.0) << force;
+  }
+}
+
+/// A lid that has pressed a shell goes back by 50 nm: the shell follows, and the force falls by little. (It was lost for an hour: nodes that would have met the
+/// lid a little later were held where they were.)
+TEST_F(DefaultNumerics, AShellFollowsAPlateThatGoesBack) {
+  run_whole(R"(schema: 1
+study: plates
+time: {end: 70 min, output: 10 min}
+domain: {size: [100 um, 100 um, 60 um]}
+geometry:
+  floor: {plane: {center: [0 um, 0 um, -6 um], size: 90 um}}
+  lid: {plane: {center: [0 um, 0 um, 6 um], normal: [0, 0, -1], size: 90 um}, motion: {direction: [0, 0, -1], course: [{time: 0 s, distance: 0 um}, {time: 20 min, distance: 2.05 um}, {time: 40 min, distance: 2.05 um}, {time: 41 min, distance: 2 um}]}}
+cell_types:
+  a: {radius: 6 um, body: shell, adhesion: {others: 0 mN/m}, friction: {obstacle: 1e9 N s/m^3}}
+initial:
+  - {type: a, at: [0 um, 0 um, 0 um]}
+output: {report: false}
+)",
+            "plates");
+  const auto lid = column("plates", "force_z_lid"), floor = column("plates", "force_z_floor");
+  for (const std::size_t i : {3u, 4u, 5u, 6u, 7u}) EXPECT_NEAR(-floor[i], lid[i], 0.01 * lid[i]) << "at rest, output " << i;
+  // The force rose from 0 to this over 2.05 µm, and ever faster: 50 nm are less than a tenth of it, and more than their even share.
+  for (const std::size_t i : {5u, 6u, 7u}) {
+    EXPECT_LT(lid[i], lid[4] * (1.0 - 0.05 / 2.05)) << i;
+    EXPECT_GT(lid[i], 0.9 * lid[4]) << i;
+  }
+}
+
+/// Forces that fall below what a float holds end nothing.
+TEST_F(DefaultNumerics, ASphereComesToRestInATrap) {
+  for (const double stiffness : {1.0, 30.0, 1000.0}) {
+    const std::string name = "trap" + std::to_string(stiffness);
+    run_whole(R"(schema: 1
+study: trap
+time: {end: 5 h, output: 1 h}
+domain: {size: [100 um, 100 um, 100 um]}
+cell_types: {a: {cycle: {model: none}}}
+initial: [{type: a, at: [0.7 um, 0 um, 0 um], as: sphere}]
+loads: {t: {type: a, trap: {stiffness: )" +
+                  std::to_string(stiffness) + R"( mN/m, center: [0 um, 0 um, 0 um]}}}
+output: {report: false}
+)",
+              name);
+    EXPECT_EQ(column(name, "cell_count").size(), 6u) << stiffness;
+  }
+}
+
+/// A course has its first value before its first point: that is a hold, too.
+TEST(Holds, BeginBeforeTheFirstPointOfACourse) {
+  const std::vector<double> times{0.0, 30.0, 60.0, 90.0, 120.0, 150.0};
+  const auto values = [&](const TimeCourse& course) {
+    std::vector<std::pair<double, std::size_t>> out;
+    for (const Hold& hold : holds_of(course, times)) out.emplace_back(hold.value, hold.output);
+    return out;
+  };
+  using Found = std::vector<std::pair<double, std::size_t>>;
+  EXPECT_EQ(values({{60.0, 90.0, 120.0}, {0.5, 1.0, 1.0}}), (Found{{0.5, 2}, {1.0, 5}}));
+  EXPECT_EQ(values({{60.0, 90.0, 120.0}, {0.5, 0.5, 1.0}}), (Found{{0.5, 3}, {1.0, 5}}));
+  EXPECT_EQ(values({{0.0, 90.0}, {0.5, 1.0}}), (Found{{1.0, 5}}));
+}
+
+}  // namespace
+}  // namespace morula::scenarios::test
