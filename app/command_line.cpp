@@ -44,7 +44,9 @@ CLI::App* add_verb(CLI::App& program, const char* name, const char* what, const 
 }
 
 void add_limits(CLI::App& verb, RunLimits& limits) {
-  verb.add_option("--until", limits.until, "Simulated time at which to end, as 48h; instead of the study's time.end")->type_name("TIME");
+  verb.add_option("--until", limits.until,
+                  "Simulated time at which to end, as 48h, or the next output after it; instead of the study's time.end")
+      ->type_name("TIME");
   verb.add_option("--threads", limits.threads, "Threads of each rank; results do not depend on it")
       ->check(CLI::Range(1, 1024))
       ->type_name("N")

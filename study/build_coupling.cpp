@@ -53,7 +53,13 @@ std::optional<Comparison> read_comparison(BuildContext& c, const UnitSystem& uni
   comparison.subject = trim(text.substr(0, sign));
   comparison.value_text = trim(text.substr(sign + 1));
   if (!find_subject(c, given.place, comparison)) return std::nullopt;
-  const std::string example = comparison.field >= 0 ? comparison.subject + " < 0.05 mM" : comparison.of->example;
+  // What was written, with the unit that it may lack.
+  const std::string usual = comparison.field >= 0 ? "< 0.05 mM" : std::string(comparison.of->example);
+  const std::string usual_value = trim(usual.substr(usual.find_first_of("<>") + 1));
+  const bool bare = comparison.value_text.find_first_not_of("0123456789.eE+-") == std::string::npos && !comparison.value_text.empty();
+  const std::size_t unit = usual_value.find(' ');
+  const std::string example = comparison.subject + " " + text[sign] + " " +
+                              (bare && unit != std::string::npos ? comparison.value_text + usual_value.substr(unit) : usual_value);
   const auto value =
       read_quantity(units, comparison.value_text, comparison.of->quantity, comparison.subject, example.c_str(), given.place, c.diagnostics);
   if (!value) return std::nullopt;

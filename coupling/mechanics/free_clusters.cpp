@@ -173,12 +173,51 @@ std::vector<Vec3d> FreeClusters::shifts(std::span<const OutsideBalance> by_body,
   return out;
 }
 
-std::vector<std::uint32_t> FreeClusters::lone_shells(const Scene& scene) const {
-  std::vector<std::uint32_t> out;
-  for (const Cluster& cluster : clusters_)
-    if (cluster.last - cluster.first == 1 && members_[cluster.first] < scene.owned_shells() &&
-        !std::ranges::binary_search(over_ranks_.keys(), cluster.label))
-      out.push_back(members_[cluster.first]);
+std::vector<char> FreeClusters::among_shells(const Scene& scene, bool others) const {
+  std::vector<char> out(scene.owned_shells(), 0);
+  for (const Cluster& cluster : clusters_) {
+    const auto members = std::span(members_).subspan(cluster.first, cluster.last - cluster.first);
+    const auto is_shell = [&](std::uint32_t body) { return body < scene.owned_shells(); };
+    const bool is_lone = members.size() == 1 && !std::ranges::binary_search(over_ranks_.keys(), cluster.label);
+    if (!std::ranges::all_of(members, is_shell) || !(is_lone || others)) continue;
+    for (const std::uint32_t body : members) out[body] = 1;
+  }
+  return out;
+}
+
+std::vector<double> FreeClusters::totals(const Scene& scene, std::span<const double> by_shell, std::size_t terms, const Comm& comm) const {
+  const std::size_t shells = scene.owned_shells();
+  const std::span<const std::uint64_t> shared = over_ranks_.keys();
+  std::vector<double> out(by_shell.size(), 0.0);
+  std::vector<OrderFreeSum> parts(terms * shared.size());
+  std::vector<std::pair<const Cluster*, std::size_t>> wait;  // for the other ranks: a cluster and its place in the list
+  const auto add = [&](const Cluster& cluster, OrderFreeSum* sums) {
+    for (std::uint32_t m = cluster.first; m < cluster.last; ++m)
+      if (members_[m] >= shells)
+        sums[terms - 1].add(1.0);
+      else
+        for (std::size_t k = 0; k < terms; ++k) sums[k].add(by_shell[members_[m] * terms + k]);
+  };
+  const auto give = [&](const Cluster& cluster, const auto& total) {
+    for (std::uint32_t m = cluster.first; m < cluster.last; ++m)
+      for (std::size_t k = 0; members_[m] < shells && k < terms; ++k) out[members_[m] * terms + k] = total(k);
+  };
+  std::vector<OrderFreeSum> sums;
+  for (const Cluster& cluster : clusters_) {
+    const auto found = std::lower_bound(shared.begin(), shared.end(), cluster.label);
+    if (found != shared.end() && *found == cluster.label) {
+      const auto place = static_cast<std::size_t>(found - shared.begin());
+      add(cluster, parts.data() + terms * place);
+      wait.emplace_back(&cluster, place);
+      continue;
+    }
+    sums.assign(terms, {});
+    add(cluster, sums.data());
+    give(cluster, [&](std::size_t k) { return sums[k].value(); });
+  }
+  if (comm.size() == 1) return out;
+  const std::vector<double> over_ranks = over_ranks_.totals(parts, terms, comm);
+  for (const auto& [cluster, place] : wait) give(*cluster, [&, at = terms * place](std::size_t k) { return over_ranks[at + k]; });
   return out;
 }
 

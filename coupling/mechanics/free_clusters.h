@@ -28,8 +28,11 @@ class FreeClusters {
   /// The velocity V = (Σ C)⁻¹ (Σ b − Σ C v) by body that each free cluster lacks [µm/s]; 0 for tied ones, for ghosts, and where nothing
   /// resists. The same bits on any number of ranks. Collective.
   [[nodiscard]] std::vector<Vec3d> shifts(std::span<const OutsideBalance> by_body, const Comm& comm) const;
-  /// The shells of this rank that are a cluster by themselves: nothing touches them but, perhaps, obstacles.
-  [[nodiscard]] std::vector<std::uint32_t> lone_shells(const Scene& scene) const;
+  /// By owned shell: whether it is a cluster by itself, or, with `others`, all bodies of its cluster on this rank are shells.
+  [[nodiscard]] std::vector<char> among_shells(const Scene& scene, bool others) const;
+  /// Sums over the clusters of what their shells have, `terms` numbers each, to the last of which a sphere adds 1; by owned shell the total of its cluster. The
+  /// same bits on any number of ranks. Collective.
+  [[nodiscard]] std::vector<double> totals(const Scene& scene, std::span<const double> by_shell, std::size_t terms, const Comm& comm) const;
   [[nodiscard]] std::size_t memory() const;
 
  private:

@@ -259,6 +259,8 @@ void RunLoop::tell_progress(double simulated, double seconds) {
   cost_.observe(simulated, seconds, load_);
   progress_.wall = wall();
   progress_.left = cost_.left(end_ - progress_.time, load_, growth_rate_);
+  const double of_outputs = output_seconds_ * std::ceil((end_ - progress_.time) / study_.time.output * (1.0 - 1e-9));
+  progress_.left = {progress_.left.low + of_outputs, progress_.left.high + of_outputs};
   if (!comm_.is_root()) return;
   if (request_.on_progress) request_.on_progress(progress_);
   if (SteadyClock::now() - last_status_ < kStatusEvery) return;
@@ -268,6 +270,8 @@ void RunLoop::tell_progress(double simulated, double seconds) {
 }
 
 Status RunLoop::output() {
+  constexpr double kFade = 0.7;  // memory of about three outputs: they grow with the tissue
+  const auto began = SteadyClock::now();
   Measures measures;
   {
     auto timed = simulation_->timer().scope(Stage::kObserve);
@@ -278,6 +282,8 @@ Status RunLoop::output() {
   interval_ = Interval{.energy = interval_.energy};
   Status within = check_limits(measures);
   MORULA_TRY(agree(write_events(), comm_));  // what the limits warn of belongs to this moment: a checkpoint comes after it
+  const double seconds = std::chrono::duration<double>(SteadyClock::now() - began).count();
+  output_seconds_ = output_seconds_ > 0.0 ? kFade * output_seconds_ + (1.0 - kFade) * seconds : seconds;
   return within;
 }
 

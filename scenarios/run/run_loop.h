@@ -74,7 +74,8 @@ class RunLoop {
     kBalance = 8,
     kBeyondRange = 16,
     kMoreShells = 32,
-    kToAndFro = 64
+    kToAndFro = 64,
+    kOutsideFields = 128
   };
   void warn_near_limit(Warned what, const std::string& text);
   /// Writes into results.h5; where its content is in the way, once more into a new one. Collective.
@@ -110,6 +111,7 @@ class RunLoop {
   CostModel cost_;
   Progress progress_;
   Load load_;
+  double output_seconds_ = 0.0;       ///< that an output takes, as the last ones did
   double growth_rate_ = 0.0;          ///< of the spheres, if nothing inhibits it [1/s]
   std::vector<ToldEvent> events_;     ///< of the tissue, not yet written
   std::map<CellId, int> promotions_;  ///< of each cell by a trigger, since the run began or was resumed

@@ -37,6 +37,35 @@ output: {report: false}
   }
 }
 
+/// Two shells that hold on to each other turn together as with a strict solver, where their contact does not resist that.
+TEST_F(DefaultNumerics, ADoubletTurnsAsAStrictSolverHasIt) {
+  const auto rotation = [&](const std::string& numerics, const std::string& name) {
+    run_whole(R"(schema: 1
+study: doublet
+time: {end: 20 min, output: 10 min}
+domain: {size: [100 um, 100 um, 60 um]}
+cell_types:
+  a: {radius: 6 um, body: shell, adhesion: {others: 5e-5 J/m^2}}
+  b: {like: a}
+initial:
+  - {type: a, at: [-6 um, 0 um, 0 um], orientation: aligned}
+  - {type: b, at: [6 um, 0 um, 0 um], orientation: aligned}
+loads:
+  a: {type: a, body_force: [0 nN, 0.02 nN, 0 nN], course: [{time: 5 min, factor: 0}, {time: 6 min, factor: 1}]}
+  b: {type: b, body_force: [0 nN, -0.02 nN, 0 nN], course: [{time: 5 min, factor: 0}, {time: 6 min, factor: 1}]}
+contact: {friction: objective}
+numerics: {)" + numerics +
+                  R"(}
+output: {report: false}
+)",
+              name);
+    return column(name, "rotation").back();
+  };
+  const double usual = rotation("", "usual"), strict = rotation("newton_stop: 0.001, newton: 30", "strict");
+  EXPECT_GT(strict, 0.005);
+  EXPECT_NEAR(usual, strict, 0.03 * strict);
+}
+
 /// A lid that has pressed a shell goes back by 50 nm: the shell follows, and the force falls by little. (It was lost for an hour: nodes that would have met the
 /// lid a little later were held where they were.)
 TEST_F(DefaultNumerics, AShellFollowsAPlateThatGoesBack) {

@@ -92,7 +92,7 @@ TEST_F(Damage, OfNothingButTheVersionIsRefusedWithBothVersions) {
   const Outcome resumed = run_morula({"resume", "run", "--until", "2 h"}, folder.path());
   EXPECT_EQ(resumed.exit_code, 2) << resumed.all();
   EXPECT_THAT(resumed.err,
-              AllOf(HasSubstr("version 99"), HasSubstr("reads version 6"), HasSubstr("resume with the version of Morula that wrote it")));
+              AllOf(HasSubstr("version 99"), HasSubstr("reads version 7"), HasSubstr("resume with the version of Morula that wrote it")));
   EXPECT_EQ(checkpoints_of(folder / "run"), checkpoints) << "nothing is removed";
 }
 
