@@ -40,6 +40,13 @@ class FreeClusters {
     std::uint64_t label = 0;            ///< bits of the smallest CellId
     std::uint32_t first = 0, last = 0;  ///< its active bodies of this rank, in members_
   };
+  [[nodiscard]] std::span<const std::uint32_t> members_of(const Cluster& cluster) const {
+    return std::span(members_).subspan(cluster.first, cluster.last - cluster.first);
+  }
+  /// give(members, totals) for every cluster: sums of what terms_of(body, to) writes, over all ranks. Those of this rank alone with needs(members) false
+  /// are left out. The same bits on any number of threads and ranks. Collective.
+  template <class TermsOf, class Needs, class Give>
+  void sum_up(std::size_t terms, const TermsOf& terms_of, const Needs& needs, const Give& give, const Comm& comm) const;
   void collect(const Scene& scene, std::span<const std::uint64_t> label, const Comm& comm);
 
   int threads_ = 1;

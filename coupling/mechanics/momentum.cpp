@@ -131,8 +131,9 @@ struct Turning {
 void turn_clusters(Workspace& work, std::span<const Vec3d> right) {
   const Scene& scene = work.scene;
   const Comm& comm = work.setting.comm;
-  if (work.setting.model.space.any_periodic() || !comm.any(scene.owned_shells() > 0)) return;
+  if (work.setting.model.space.any_periodic()) return;
   std::vector<char> turns = work.solver.clusters.among_shells(scene, work.setting.model.contact.objective_friction);
+  if (!comm.any(std::ranges::find(turns, 1) != turns.end())) return;
   std::vector<Float4>& velocity = work.solver.velocity;
   std::vector<OutsideBalance> outside(scene.bodies().size());  // but for the medium
   for (const HeldPoint& point : work.solver.held) outside[point.body].resistance += point.block;

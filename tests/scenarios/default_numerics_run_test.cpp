@@ -111,6 +111,32 @@ output: {report: false}
   }
 }
 
+/// methods.md names the laws of the bodies that there are: a sphere meets a plate by its own law, and rubs in the medium.
+TEST_F(DefaultNumerics, MethodsNameTheLawsThatAct) {
+  run_whole(R"(schema: 1
+study: laws
+time: {end: 1 min, output: 1 min}
+domain: {size: [100 um, 100 um, 60 um]}
+geometry: {floor: {plane: {center: [0 um, 0 um, -6 um], size: 90 um}}}
+cell_types: {ball: {cycle: {model: none}}, skin: {like: ball, body: shell}}
+initial:
+  - {type: ball, at: [-20 um, 0 um, 0 um]}
+  - {type: skin, at: [20 um, 0 um, 0 um]}
+output: {report: false}
+)",
+            "laws");
+  const std::string methods = file("laws", "methods.md");
+  const auto section = [&](const std::string& title) {
+    const std::size_t at = methods.find("## " + title + "\n");
+    return at == std::string::npos ? std::string() : methods.substr(at, methods.find("\n## ", at) - at);
+  };
+  EXPECT_NE(section("spheres of ball").find("`medium_friction`"), std::string::npos);
+  EXPECT_EQ(section("shell of ball") + section("spheres of skin"), "");
+  EXPECT_NE(section("contact of ball with floor"), "");
+  EXPECT_EQ(section("contact of ball with floor").find("`traction`"), std::string::npos);
+  EXPECT_NE(section("contact of skin with floor").find("`traction`"), std::string::npos);
+}
+
 /// A course has its first value before its first point: that is a hold, too.
 TEST(Holds, BeginBeforeTheFirstPointOfACourse) {
   const std::vector<double> times{0.0, 30.0, 60.0, 90.0, 120.0, 150.0};

@@ -45,5 +45,23 @@ TEST(Estimate, OfAHundredMillionShellsIsThereAtOnce) {
   EXPECT_THAT(outcome.out, testing::ContainsRegex("time    .* d on 1 core"));
 }
 
+/// A thousand million voxels: the field alone would be 310 GB, and steps with it cannot be tried.
+TEST(Estimate, OfFieldsThatFitNoMemoryIsThereAndCheckTellsIt) {
+  const TestFolder folder;
+  folder.write("study.yaml",
+               "schema: 1\nstudy: fine\ntime: {end: 1 min, output: 30 s}\ndomain: {size: [1000 um, 1000 um, 1000 um]}\n"
+               "cell_types: {cell: {cycle: {model: none}}}\ninitial: [{type: cell, at: [0 um, 0 um, 0 um]}]\n"
+               "fields: {o: {diffusion: 500 um^2/s, initial: 0.1 mM, voxel: 1 um, uptake: {cell: 1 amol/s}}}\n");
+  CommandOptions options;
+#ifndef __SANITIZE_ADDRESS__
+  options.shell_before = "ulimit -v 6000000;";
+#endif
+  const Outcome outcome = run_morula({"check", "study.yaml", "--estimate"}, folder.path(), options);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.all();
+  EXPECT_THAT(outcome.err, HasSubstr("this study takes about 310 GB from its start, and this machine has"));
+  EXPECT_THAT(outcome.err, HasSubstr("[E699]"));
+  EXPECT_THAT(outcome.out, HasSubstr("voxels  1000000000\n  memory  about 310 GB\n"));
+}
+
 }  // namespace
 }  // namespace morula::test
