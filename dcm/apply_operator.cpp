@@ -27,20 +27,40 @@ struct NodeVectors {
   void add(std::size_t node, const Vec3<Real>& value) const noexcept { set(node, (*this)[node] + value); }
 };
 
-/// q = diagonal · p; returns g·p of every lane, summed in double.
+/// What motions do to a shell as a whole, by lane.
 template <int W>
-Lane<double, W> apply_diagonal(const ShellOperator::Block& matrix, std::size_t nodes, NodeVectors<W> p, NodeVectors<W> q) noexcept {
+struct WholeRates {
+  Lane<float, W> volume, rotation[3];
+};
+
+/// q = diagonal · p; returns g·p and Ŷᵀp of every lane, summed in double.
+template <int W>
+WholeRates<W> apply_diagonal(const ShellOperator::Block& matrix, std::size_t nodes, NodeVectors<W> p, NodeVectors<W> q) noexcept {
   using Real = Lane<float, W>;
   using Double = Lane<double, W>;
-  Double volume_rate(0.0);
+  Double sums[4] = {Double(0.0), Double(0.0), Double(0.0), Double(0.0)};
+  const auto add = [](Double& sum, const Real& value) { sum += Double::from(__builtin_convertvector(value.v, typename Double::Vector)); };
   for (std::size_t i = 0; i < nodes; ++i) {
     const auto pi = p[i];
-    const Real rate = dot(load_vec3<float, W>(matrix.volume_gradient.data(), i), pi);
-    volume_rate += Double::from(__builtin_convertvector(rate.v, typename Double::Vector));
+    add(sums[3], dot(load_vec3<float, W>(matrix.volume_gradient.data(), i), pi));
+    for (std::size_t axis = 0; axis < 3; ++axis) add(sums[axis], dot(load_vec3<float, W>(matrix.rotation.data(), 3 * i + axis), pi));
     q.set(i, pi * load_scalar<float, W>(matrix.diagonal.data(), i));
     Real(0.0f).store(q.data + (i * 4 + 3) * W);
   }
-  return volume_rate;
+  const auto rate = [&](int k) { return Real::from(__builtin_convertvector(sums[k].v, typename Real::Vector)); };
+  return {rate(3), {rate(0), rate(1), rate(2)}};
+}
+
+/// q += g s_V g·p − Ŷ Ŷᵀp
+template <int W>
+void apply_whole_rates(const ShellOperator::Block& matrix, std::size_t nodes, const WholeRates<W>& rates, NodeVectors<W> q) noexcept {
+  using Real = Lane<float, W>;
+  const Real pressure = Real::load(matrix.volume_stiffness.data()) * rates.volume;
+  for (std::size_t i = 0; i < nodes; ++i) {
+    auto sum = load_vec3<float, W>(matrix.volume_gradient.data(), i) * pressure;
+    for (std::size_t axis = 0; axis < 3; ++axis) sum -= load_vec3<float, W>(matrix.rotation.data(), 3 * i + axis) * rates.rotation[axis];
+    q.add(i, sum);
+  }
 }
 
 /// A face's entry of the membrane term.
@@ -154,23 +174,20 @@ void apply_whole_shell(const LaneVector<float>& gradient, const std::array<float
 template <int W>
 void apply_block(const LaneBlock& block, const Shells& shells, const ShellOperator::Block& matrix, std::span<const Float4> input,
                  std::span<Float4> output, Workspace& ws) noexcept {
-  using Real = Lane<float, W>;
   const Topology& topology = *block.topology;
   const std::size_t nodes = topology.node_count();
   ws.p.resize(std::max(ws.p.size(), nodes * 4 * W));
   ws.q.resize(std::max(ws.q.size(), nodes * 4 * W));
   const NodeVectors<W> p{ws.p.data()}, q{ws.q.data()};
   load_lanes<W, float>(lane_pointers<W>(&input.data()->x, block, shells.first_node, 4), nodes * 4, p.data);
-  const auto volume_rate = apply_diagonal<W>(matrix, nodes, p, q);
+  const auto rates = apply_diagonal<W>(matrix, nodes, p, q);
   apply_edges<W>(matrix, topology.edges(), p, q);
   apply_rank_one_terms<W>(matrix, topology, p, q);
   if (!matrix.membrane.empty()) apply_membrane<W>(matrix, topology.faces(), p, q);
   if (!matrix.bending_normal.empty()) apply_bending<W>(matrix, topology, p, q, ws.rate);
   if (!matrix.area_gradient.empty()) apply_whole_shell<W>(matrix.area_gradient, matrix.area_stiffness, nodes, p, q);
   if (!matrix.bulk_gradient.empty()) apply_whole_shell<W>(matrix.bulk_gradient, matrix.bulk_friction, nodes, p, q);
-  const Real pressure =
-      Real::load(matrix.volume_stiffness.data()) * Real::from(__builtin_convertvector(volume_rate.v, typename Real::Vector));
-  for (std::size_t i = 0; i < nodes; ++i) q.add(i, load_vec3<float, W>(matrix.volume_gradient.data(), i) * pressure);
+  apply_whole_rates<W>(matrix, nodes, rates, q);
   store_lanes<W, float>(q.data, nodes * 4, lane_pointers<W>(&output.data()->x, block, shells.first_node, 4));
 }
 

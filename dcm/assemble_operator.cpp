@@ -134,11 +134,13 @@ bool assemble_edges(Assembly<W>& a, const ShellFriction::Block& friction, const 
     const Real length = norm(e), rest_length = load_scalar<float, W>(a.ws.rest_length.data(), k);
     SymMat3<Real> m =
         damper.friction(normalized(load_vec3<float, W>(a.ws.start.data(), edge.j) - load_vec3<float, W>(a.ws.start.data(), edge.i)));
-    m += a.dt * spring.stiffness_psd(e * (Real(1.0f) / length), length, rest_length);
     // ½ cot of the angle opposite to the edge, times n nᵀ; 1/|N|³ is in the record
-    m += outer(left.tension * dot(xi - xk, xj - xk), left.n);
-    m += outer(right.tension * dot(xi - xl, xj - xl), right.n);
-    m += isotropic(left.isotropic + right.isotropic + isotropic_damper.damping);
+    SymMat3<Real> stiffness = a.dt * spring.stiffness_psd(e * (Real(1.0f) / length), length, rest_length);
+    stiffness += outer(left.tension * dot(xi - xk, xj - xk), left.n);
+    stiffness += outer(right.tension * dot(xi - xl, xj - xl), right.n);
+    stiffness += isotropic(left.isotropic + right.isotropic);
+    add_rotation(a, edge, stiffness);
+    m += stiffness + isotropic(isotropic_damper.damping);
     margin = min(margin, min(choice.cos_margin(left, right), choice.stiff_margin(left, right, norm2(e))));
     float* p = a.out.edge.data() + k * 6 * W;
     m.xx.store(p), m.xy.store(p + W), m.xz.store(p + 2 * W), m.yy.store(p + 3 * W), m.yz.store(p + 4 * W), m.zz.store(p + 5 * W);
@@ -221,6 +223,7 @@ void assemble_block(const ShellBlocks& blocks, const LaneBlock& block, const She
   const std::size_t edges = topology.edge_count();
   out.edge.resize(edges * 6 * W);
   out.volume_gradient.assign(nodes * 3 * W, 0.0f);
+  out.rotation.assign(nodes * 9 * W, 0.0f);
   out.diagonal.resize(nodes * W);
   out.shape_face.clear(), out.shape.clear(), out.hinge_edge.clear(), out.hinge.clear();
   for (std::size_t i = 0; i < nodes; ++i) to_float<W>(load_scalar<double, W>(friction.medium.data(), i)).store(out.diagonal.data() + i * W);
@@ -232,6 +235,7 @@ void assemble_block(const ShellBlocks& blocks, const LaneBlock& block, const She
   if (assemble_edges(a, friction, choice)) assemble_hinges(a, choice);
   out.membrane.clear(), out.area_gradient.clear(), out.bending_normal.clear(), out.bending_weight.clear();
   assemble_sheets(a);
+  free_rotations(a);
   if (global_area) assemble_global_area(a);
   if (any(&ShellParameters::helfrich_rigidity)) assemble_bending(a);
   out.bulk_gradient.resize(friction.volume_gradient.size());

@@ -61,6 +61,25 @@ struct Assembly {
   Real of_type(double ShellParameters::*member) const noexcept { return parameter<float, W>(block, shells, materials, member); }
 };
 
+/// Add the forces of an edge's stiffness against rotations of the shell about the three axes to `rotation`.
+template <int W>
+void add_rotation(Assembly<W>& a, const Edge& edge, const SymMat3<Lane<float, W>>& stiffness) noexcept {
+  using Real = Lane<float, W>;
+  const auto e = a.x(edge.j) - a.x(edge.i);
+  const Real none(0.0f);
+  const Vec3<Real> turns[3] = {{none, -e.z, e.y}, {e.z, none, -e.x}, {-e.y, e.x, none}};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto force = stiffness * turns[axis];
+    add_vec3<float, W>(a.out.rotation.data(), 3 * edge.j + axis, force);
+    add_vec3<float, W>(a.out.rotation.data(), 3 * edge.i + axis, -force);
+  }
+}
+
+/// From these forces Y = K R, with R the three rotations, to what ShellOperator::Block::rotation is. After all that adds stiffness to the edges, but
+/// for contacts.
+template <int W>
+void free_rotations(Assembly<W>& assembly) noexcept;
+
 /// Add what contacts couple within the shells to `edge`, the edge blocks of the matrix.
 template <int W>
 void add_contact_edges(const LaneBlock& block, const EdgeBlockSource& contacts, OperatorWorkspace& ws, LaneVector<float>& edge);

@@ -87,6 +87,7 @@ void assemble_sheet_stiffness(Assembly<W>& a, const Sheets& sheets, const Lane<f
     for (int c = 0; c < 3; ++c) {
       const Real across = Real(2.0f) * area * (pull.trace * s.trace_slope[c] + pull.det * s.det_slope[c]);
       add_to_edge(a, face_edges[f][c], outer(h(c, c), e[c]) + isotropic(across));
+      add_rotation(a, a.topology.edges()[face_edges[f][c]], isotropic(across));
     }
     float* p = a.out.membrane.data() + f * 9 * W;
     h(0, 1).store(p), h(1, 2).store(p + W), h(2, 0).store(p + 2 * W);

@@ -23,6 +23,9 @@ namespace morula::dcm {
 ///   hinge    b bᵀ per edge: Gauss–Newton part of dihedral_barrier where it acts, and of hinge_bending where it is stiff against the tension
 ///   membrane the three edge strains of a face among each other; what an edge strain does to itself is in the edge blocks
 ///   bending  κ/a h hᵀ per node: Gauss–Newton part of the Helfrich law
+///   rotation −Y S⁻¹ Yᵀ per shell, with K the stiffness that edges have of the membrane, R the three rotations of the shell, Y = K R and S = RᵀY = G Gᵀ:
+///            tension resists every motion of two nodes across their edge, rotations of the whole shell too, which cost no energy. Without this part of it K
+///            is as semi-definite as before, and rotations feel friction and contacts only (decision 0081)
 ///   volume   (Δt K_V/V) g gᵀ per shell, g = ∂V/∂x; likewise the global area, and the bulk viscosity with the g of the step's start
 /// What no shell of a block has is empty and costs nothing.
 /// Weak hinges are explicit: with them the iterations and the result stay the same (time_stepping.md §10.1).
@@ -32,6 +35,7 @@ struct ShellOperator {
     LaneVector<float> diagonal;         ///< medium friction: [node][lane]
     LaneVector<float> volume_gradient;  ///< g: [node][3][lane]
     std::array<float, LaneBlock::kMaxLanes> volume_stiffness{};
+    LaneVector<float> rotation;       ///< Ŷ = Y G⁻ᵀ, three vectors a node: [node][3][3][lane]
     LaneVector<float> membrane;       ///< h01 h12 h20, e1, e2 of every face: [face][9][lane]
     LaneVector<float> area_gradient;  ///< ∂A/∂x: [node][3][lane]
     std::array<float, LaneBlock::kMaxLanes> area_stiffness{};

@@ -1,6 +1,7 @@
 #include "coupling/mechanics/free_clusters.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 
 #include "core/parallel/threads.h"
@@ -52,18 +53,25 @@ Sets sets_of_pairs(const Scene& scene, std::span<const ElementGroup> groups, con
   return std::move(all);
 }
 
-constexpr std::size_t kBalanceTerms = 9;
+/// Sums of the bodies of a cluster, order-free.
+struct ClusterSums {
+  static constexpr std::size_t kTerms = 9;
+  using Terms = std::array<double, kTerms>;
 
-void put_terms(const OutsideBalance& b, double* to) {
-  const SymMat3<double>& c = b.resistance;
-  for (const double term : {b.missing.x, b.missing.y, b.missing.z, c.xx, c.xy, c.xz, c.yy, c.yz, c.zz}) *to++ = term;
-}
-
-Vec3d velocity_of(const double* t) {
-  const SymMat3<double> resistance{t[3], t[4], t[5], t[6], t[7], t[8]};
-  if (!(determinant(resistance) > kLeastDeterminant * resistance.xx * resistance.yy * resistance.zz)) return {};
-  return inverse(resistance) * Vec3d{t[0], t[1], t[2]};
-}
+  static Terms terms_of(const OutsideBalance& b) {
+    const SymMat3<double>& c = b.resistance;
+    return {b.missing.x, b.missing.y, b.missing.z, c.xx, c.xy, c.xz, c.yy, c.yz, c.zz};
+  }
+  static void add(const OutsideBalance& b, OrderFreeSum* sums) {
+    const Terms terms = terms_of(b);
+    for (std::size_t k = 0; k < kTerms; ++k) sums[k].add(terms[k]);
+  }
+  static Vec3d velocity(const double* t) {
+    const SymMat3<double> resistance{t[3], t[4], t[5], t[6], t[7], t[8]};
+    if (!(determinant(resistance) > kLeastDeterminant * resistance.xx * resistance.yy * resistance.zz)) return {};
+    return inverse(resistance) * Vec3d{t[0], t[1], t[2]};
+  }
+};
 
 std::vector<std::uint64_t> sorted_unique(std::vector<std::uint64_t> list) {
   std::sort(list.begin(), list.end());
@@ -126,91 +134,42 @@ void FreeClusters::collect(const Scene& scene, std::span<const std::uint64_t> la
   over_ranks_.find(sorted_unique(std::move(of_ghosts)), comm);
 }
 
-template <class TermsOf, class Needs, class Give>
-void FreeClusters::sum_up(std::size_t terms, const TermsOf& terms_of, const Needs& needs, const Give& give, const Comm& comm) const {
+std::vector<Vec3d> FreeClusters::shifts(std::span<const OutsideBalance> by_body, const Comm& comm) const {
+  constexpr std::size_t kTerms = ClusterSums::kTerms;
+  std::vector<Vec3d> out(by_body.size());
   const std::span<const std::uint64_t> shared = over_ranks_.keys();
-  std::vector<OrderFreeSum> parts(terms * shared.size());
+  std::vector<OrderFreeSum> parts(kTerms * shared.size());
   std::vector<std::pair<const Cluster*, std::size_t>> wait;  // for the other ranks: a cluster and its place in the list
-  std::vector<double> total(terms);
-  const auto add = [&](std::span<const std::uint32_t> members, OrderFreeSum* sums) {
-    std::vector<double> of_body(terms);
-    for (const std::uint32_t body : members) {
-      terms_of(body, of_body.data());
-      for (std::size_t k = 0; k < terms; ++k) sums[k].add(of_body[k]);
-    }
+  const auto give = [&](const Cluster& cluster, const Vec3d& velocity) {
+    for (std::uint32_t m = cluster.first; m < cluster.last; ++m) out[members_[m]] = velocity;
   };
   for (const Cluster& cluster : clusters_) {
-    const auto members = members_of(cluster);
     const auto found = std::lower_bound(shared.begin(), shared.end(), cluster.label);
     if (found != shared.end() && *found == cluster.label) {
       const auto place = static_cast<std::size_t>(found - shared.begin());
-      add(members, parts.data() + terms * place);
+      for (std::uint32_t m = cluster.first; m < cluster.last; ++m) ClusterSums::add(by_body[members_[m]], parts.data() + kTerms * place);
       wait.emplace_back(&cluster, place);
-      continue;
-    }
-    if (!needs(members)) continue;
-    if (members.size() == 1) {  // most clusters of a dilute tissue; an order-free sum is large
-      terms_of(members[0], total.data());
+    } else if (cluster.last - cluster.first == 1) {  // most clusters of a dilute tissue; an order-free sum is large
+      give(cluster, ClusterSums::velocity(ClusterSums::terms_of(by_body[members_[cluster.first]]).data()));
     } else {
-      const int threads = members.size() < kManyMembers ? 1 : threads_;
-      const auto count = static_cast<std::size_t>(std::max(threads, 1));
-      std::vector<OrderFreeSum> of_part(count * terms);
+      const std::uint32_t count = cluster.last - cluster.first;
+      const int threads = count < kManyMembers ? 1 : threads_;
+      std::vector<std::array<OrderFreeSum, kTerms>> of_part(static_cast<std::size_t>(std::max(threads, 1)));
       on_each_thread(threads, [&](std::size_t t) {
-        const std::size_t first = members.size() * t / count, last = members.size() * (t + 1) / count;
-        add(members.subspan(first, last - first), of_part.data() + t * terms);
+        for (std::size_t m = count * t / of_part.size(); m < count * (t + 1) / of_part.size(); ++m)
+          ClusterSums::add(by_body[members_[cluster.first + m]], of_part[t].data());
       });
-      for (std::size_t t = 1; t < count; ++t)
-        for (std::size_t k = 0; k < terms; ++k) of_part[k] += of_part[t * terms + k];
-      for (std::size_t k = 0; k < terms; ++k) total[k] = of_part[k].value();
+      std::array<OrderFreeSum, kTerms>& sums = of_part.front();
+      for (std::size_t t = 1; t < of_part.size(); ++t)
+        for (std::size_t k = 0; k < kTerms; ++k) sums[k] += of_part[t][k];
+      ClusterSums::Terms total;
+      std::transform(sums.begin(), sums.end(), total.begin(), [](const OrderFreeSum& sum) { return sum.value(); });
+      give(cluster, ClusterSums::velocity(total.data()));
     }
-    give(members, total.data());
   }
-  if (comm.size() == 1) return;
-  const std::vector<double> totals = over_ranks_.totals(parts, terms, comm);
-  for (const auto& [cluster, place] : wait) give(members_of(*cluster), totals.data() + terms * place);
-}
-
-std::vector<Vec3d> FreeClusters::shifts(std::span<const OutsideBalance> by_body, const Comm& comm) const {
-  std::vector<Vec3d> out(by_body.size());
-  sum_up(
-      kBalanceTerms, [&](std::uint32_t body, double* terms) { put_terms(by_body[body], terms); }, [](const auto&) { return true; },
-      [&](std::span<const std::uint32_t> members, const double* total) {
-        const Vec3d velocity = velocity_of(total);
-        for (const std::uint32_t body : members) out[body] = velocity;
-      },
-      comm);
-  return out;
-}
-
-std::vector<char> FreeClusters::among_shells(const Scene& scene, bool others) const {
-  std::vector<char> out(scene.owned_shells(), 0);
-  for (const Cluster& cluster : clusters_) {
-    const auto members = members_of(cluster);
-    const bool is_lone = members.size() == 1 && !std::ranges::binary_search(over_ranks_.keys(), cluster.label);
-    if (members.empty() || members.back() >= scene.owned_shells() || !(is_lone || others)) continue;  // shells come first
-    for (const std::uint32_t body : members) out[body] = 1;
-  }
-  return out;
-}
-
-std::vector<double> FreeClusters::totals(const Scene& scene, std::span<const double> by_shell, std::size_t terms, const Comm& comm) const {
-  const std::size_t shells = scene.owned_shells();
-  std::vector<double> out(by_shell.size(), 0.0);
-  sum_up(
-      terms,
-      [&](std::uint32_t body, double* to) {
-        std::fill_n(to, terms, 0.0);
-        if (body < shells)
-          std::copy_n(by_shell.data() + body * terms, terms, to);
-        else
-          to[terms - 1] = 1.0;
-      },
-      [&](std::span<const std::uint32_t> members) { return members.back() < shells; },  // shells come first
-      [&](std::span<const std::uint32_t> members, const double* total) {
-        for (const std::uint32_t body : members)
-          if (body < shells) std::copy_n(total, terms, out.data() + body * terms);
-      },
-      comm);
+  if (comm.size() == 1) return out;
+  const std::vector<double> totals = over_ranks_.totals(parts, kTerms, comm);
+  for (const auto& [cluster, place] : wait) give(*cluster, ClusterSums::velocity(totals.data() + kTerms * place));
   return out;
 }
 

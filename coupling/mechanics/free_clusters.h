@@ -28,11 +28,6 @@ class FreeClusters {
   /// The velocity V = (Σ C)⁻¹ (Σ b − Σ C v) by body that each free cluster lacks [µm/s]; 0 for tied ones, for ghosts, and where nothing
   /// resists. The same bits on any number of ranks. Collective.
   [[nodiscard]] std::vector<Vec3d> shifts(std::span<const OutsideBalance> by_body, const Comm& comm) const;
-  /// By owned shell: whether it is a cluster by itself, or, with `others`, all bodies of its cluster on this rank are shells.
-  [[nodiscard]] std::vector<char> among_shells(const Scene& scene, bool others) const;
-  /// Sums over the clusters of what their shells have, `terms` numbers each, to the last of which a sphere adds 1; by owned shell the total of its cluster. The
-  /// same bits on any number of ranks. Collective.
-  [[nodiscard]] std::vector<double> totals(const Scene& scene, std::span<const double> by_shell, std::size_t terms, const Comm& comm) const;
   [[nodiscard]] std::size_t memory() const;
 
  private:
@@ -40,13 +35,6 @@ class FreeClusters {
     std::uint64_t label = 0;            ///< bits of the smallest CellId
     std::uint32_t first = 0, last = 0;  ///< its active bodies of this rank, in members_
   };
-  [[nodiscard]] std::span<const std::uint32_t> members_of(const Cluster& cluster) const {
-    return std::span(members_).subspan(cluster.first, cluster.last - cluster.first);
-  }
-  /// give(members, totals) for every cluster: sums of what terms_of(body, to) writes, over all ranks. Those of this rank alone with needs(members) false
-  /// are left out. The same bits on any number of threads and ranks. Collective.
-  template <class TermsOf, class Needs, class Give>
-  void sum_up(std::size_t terms, const TermsOf& terms_of, const Needs& needs, const Give& give, const Comm& comm) const;
   void collect(const Scene& scene, std::span<const std::uint64_t> label, const Comm& comm);
 
   int threads_ = 1;

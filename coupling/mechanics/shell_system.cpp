@@ -79,8 +79,8 @@ std::size_t ShellSystem::memory() const {
   std::size_t total = 0;
   for (const auto& block : operator_.blocks)
     total += block.edge.capacity() * sizeof(std::int32_t) +
-             (block.diagonal.capacity() + block.volume_gradient.capacity() + block.shape.capacity() + block.hinge.capacity() +
-              block.membrane.capacity() + block.area_gradient.capacity() + block.bulk_gradient.capacity() +
+             (block.diagonal.capacity() + block.volume_gradient.capacity() + block.rotation.capacity() + block.shape.capacity() +
+              block.hinge.capacity() + block.membrane.capacity() + block.area_gradient.capacity() + block.bulk_gradient.capacity() +
               block.bending_weight.capacity() + block.bending_normal.capacity()) *
                  sizeof(float) +
              (block.shape_face.capacity() + block.hinge_edge.capacity()) * sizeof(std::uint32_t);
