@@ -101,6 +101,14 @@ void find_smooth_parts(RigidSurface& surface) {
   for (SmoothPart& part : surface.parts) part.tree = tree_of(surface, part.face);
 }
 
+void parts_near(const RigidSurface& surface, const Vec3d& p, double reach, std::vector<std::uint32_t>& parts) {
+  surface.tree->faces_in(Box{p, p}.inflated(reach), parts);
+  for (std::uint32_t& face : parts) face = surface.part_of_face[face];
+  std::ranges::sort(parts);
+  const auto repeated = std::ranges::unique(parts);
+  parts.erase(repeated.begin(), repeated.end());
+}
+
 std::optional<Foot> foot_on_part(const RigidSurface& surface, std::uint32_t part, const Vec3d& p, double cutoff) {
   const auto near = nearest_on_part(surface, part, p, cutoff);
   if (!near) return std::nullopt;

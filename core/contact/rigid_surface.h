@@ -93,6 +93,9 @@ class RigidSurfaces {
 /// Finds the smooth parts of a surface that has all else, and their curvature.
 void find_smooth_parts(RigidSurface& surface);
 
+/// The parts of a surface that have faces whose bounds come as near to p as `reach` [µm], increasing.
+void parts_near(const RigidSurface& surface, const Vec3d& p, double reach, std::vector<std::uint32_t>& parts);
+
 /// Where a ball around p touches a part of a surface.
 struct Foot {
   Vec3d point;            ///< the point of the part that is nearest to p

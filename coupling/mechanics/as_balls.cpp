@@ -86,16 +86,11 @@ void add_obstacles_of_shells(const Workspace& work, const Balls& balls, Standing
   const ContactLayer& layer = work.terms.contacts->layer();
   const auto obstacles = layer.obstacles();
   const cbm::ContactTable& table = work.terms.spheres->table();
-  std::vector<std::uint32_t> faces, parts;
+  std::vector<std::uint32_t> parts;
   const auto add = [&](std::size_t i, std::uint32_t o, const SurfaceImage& image) {
     const double radius = balls.extent[i].radius;
     const Vec3d center = balls.extent[i].center - (layer.obstacle_offset(o) + image.shift);
-    obstacles[o].tree->faces_in(Box{center, center}.inflated(radius), faces);
-    parts.clear();
-    for (const std::uint32_t face : faces) parts.push_back(obstacles[o].part_of_face[face]);
-    std::ranges::sort(parts);
-    const auto repeated = std::ranges::unique(parts);
-    parts.erase(repeated.begin(), repeated.end());
+    parts_near(obstacles[o], center, radius, parts);
     const std::size_t material = std::min<std::size_t>(work.setting.model.types.size() + o, table.material_count() - 1);
     const cbm::PairContact& contact = table.entry(work.scene.bodies()[i].material, material).contact;
     for (const std::uint32_t part : parts) {

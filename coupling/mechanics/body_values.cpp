@@ -169,7 +169,7 @@ std::vector<Vec3d> Mechanics::obstacle_forces(const Tissue& tissue) {
   };
   for (const SurfacePair& pair : contacts().pairs())
     if (pair.rigid && work_->scene.bodies()[pair.a].owned) add(pair.b, pair.push);
-  work_->terms.spheres->for_pushed_obstacles(add);
+  work_->terms.spheres->for_pushed_obstacles([&](std::uint32_t, std::uint32_t obstacle, const Vec3d& force) { add(obstacle, force); });
   std::vector<double> totals(sums.size());
   work_->setting.comm.sum(sums, totals);
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = {totals[3 * i], totals[3 * i + 1], totals[3 * i + 2]};

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "coupling/mechanics/common_way.h"
+#include "coupling/mechanics/left_at_obstacles.h"
 #include "coupling/mechanics/step.h"
 
 namespace morula {
@@ -25,6 +26,7 @@ constexpr double kHold = 100.0;            // stiffness that holds a node, over 
 constexpr double kLastResortStep = 0.2;    // in units of the contact range
 constexpr double kLeastScale = 0.02;       // of forces before obstacles moved, over the residual after it: cells may have been at rest
 constexpr int kMaxLinearIterations = 400;
+constexpr int kTimesAtObstacles = 4;   // as many iterations may be done while obstacles move
 constexpr double kMuchTooFar = 4.0;    // first way of Newton's method, over what is allowed, from which on a step is not worth a search
 constexpr double kShortestCut = 1e-3;  // a step that is no longer is not refused for the length of its way [s]
 
@@ -122,6 +124,8 @@ class NewtonStep {
   /// Another iteration would move points by about the part of this one's way that the residual has left: where this is little, it is not
   /// worth a matrix and a solve, and the next step sees the residual (time_stepping.md §6.1, §10.5).
   [[nodiscard]] bool is_done(const Iteration& last) const;
+  /// Whether the cells that moved obstacles touch are so near to their balance that the forces on these obstacles can be told. Collective.
+  [[nodiscard]] bool can_tell_forces() const;
 
   Workspace& work_;
   Tissue& tissue_;
@@ -312,6 +316,10 @@ bool NewtonStep::is_done(const Iteration& last) const {
   return left <= kMostLeft * control_.newton_stop && left * last.longest <= kSmallCorrection * control_.newton_stop * range_;
 }
 
+bool NewtonStep::can_tell_forces() const {
+  return !task_.forces_before || left_at_moved_obstacles(work_, now_->force) <= control_.obstacle_stop;
+}
+
 Result<StepReport, StepFault> NewtonStep::run(Evaluation at_start) {
   const OwnedPoints points = work_.points();
   report_.step = task_.dt;
@@ -324,12 +332,15 @@ Result<StepReport, StepFault> NewtonStep::run(Evaluation at_start) {
   }
   if (!std::isfinite(phi_) || !std::isfinite(force_norm_)) return undo({"forces are not numbers", {}, false});
   bool cut = false;  // the last iteration's way was cut to the contact range, gone to its end, and did not suffice
-  for (int number = 0; number < control_.max_newton; ++number) {
+  const int most = control_.max_newton * (task_.forces_before ? kTimesAtObstacles : 1);
+  for (int number = 0; number < most; ++number) {
     const auto done = iterate(number);
     if (!done) return undo(done.error());
     cut = false;
-    if (!done->moved || is_done(*done)) break;
-    cut = done->whole && done->longest > range_;
+    if (!done->moved || done->converged) break;
+    const bool enough = is_done(*done);
+    cut = !enough && done->whole && done->longest > range_;
+    if ((enough || number + 1 >= control_.max_newton) && can_tell_forces()) break;
   }
   const auto way = [&](std::uint32_t i) { return work_.scene.position()[i] - start()[i]; };
   report_.displacement = points.largest_of(way, AllowedWays::kSphereCounts);

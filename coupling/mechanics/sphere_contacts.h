@@ -79,10 +79,10 @@ class SphereContacts : public Term {
     for (const RigidPair& pair : rigid_)
       if (pair.area > 0.0) function(pair.sphere, pair.obstacle, pair.normal, pair.area);
   }
-  /// function(obstacle, force on it) for every contact of an owned sphere with an obstacle [nN].
+  /// function(owned sphere, obstacle, force on it) for every contact of a sphere with an obstacle [nN].
   template <class F>
   void for_pushed_obstacles(F&& function) const {
-    for (const RigidPair& pair : rigid_) function(pair.obstacle, pair.normal * pair.force);
+    for (const RigidPair& pair : rigid_) function(pair.sphere, pair.obstacle, pair.normal * pair.force);
   }
 
  private:

@@ -110,16 +110,13 @@ void SphereContacts::add_rigid_pairs(const Scene& scene, const Tissue& tissue, s
   const ContactBody& body = scene.bodies()[scene.first_sphere() + sphere];
   const double reach = body.radius + layer().settings().sphere_reach + layer().settings().body_skin;
   const Vec3d center = scene.position()[body.first_point];
-  std::vector<std::uint32_t> faces, parts;
+  std::vector<std::uint32_t> parts;
   const auto add = [&](std::uint32_t o, const SurfaceImage& image) {
     const Vec3d from = center - (layer().obstacle_offset(o) + image.shift);
-    obstacles[o].tree->faces_in(Box{from, from}.inflated(reach), faces);
-    parts.clear();
-    for (const std::uint32_t face : faces) parts.push_back(obstacles[o].part_of_face[face]);
+    parts_near(obstacles[o], from, reach, parts);
     for (const RigidPair& pair : rubs)
-      if (pair.obstacle == o && pair.image.number == image.number) parts.push_back(pair.part);
-    std::sort(parts.begin(), parts.end());
-    parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
+      if (pair.obstacle == o && pair.image.number == image.number && !std::ranges::binary_search(parts, pair.part))
+        parts.insert(std::ranges::upper_bound(parts, pair.part), pair.part);
     const bool attached = !parts.empty() && cbm::adheres(tissue.spheres.attached[sphere], obstacle_partner(o));
     for (const std::uint32_t part : parts) {
       RigidPair& pair = rigid_.emplace_back();
