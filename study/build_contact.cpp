@@ -72,6 +72,21 @@ void check_keys(BuildContext& c, const draft::ContactPair& pair, const SurfaceLa
                         "give the shortest range as `contact.range`, and longer ones by pair: steps are measured by the shortest");
 }
 
+/// W515 for what a pair says of surfaces where spheres meet, or a sphere an obstacle: they have laws of their own (`cbm`), and of a pair its friction.
+void check_surfaces(BuildContext& c, const draft::ContactPair& pair, const Materials& materials) {
+  const std::size_t types = c.draft.cell_types.size();
+  for (const std::size_t m : {materials.a, materials.b})
+    if (m < types && may_be_shell(c, m)) return;
+  const auto warn = [&](const Place& place, const std::string& key) {
+    c.diagnostics.warning(515, place, "`" + key + "` is of surfaces, and these cells are always spheres: it has no effect",
+                          "remove it, or give one of the types `body: shell`; the contact of spheres is that of `cbm`");
+  };
+  if (pair.law.given) warn(pair.law.place, "law");
+  if (pair.range.given) warn(pair.range.place, "range");
+  if (pair.repulsion.given) warn(pair.repulsion.place, "repulsion");
+  if (!pair.regions.empty()) warn(pair.regions.front().place, "regions");
+}
+
 /// What the law says of its values, knowing the pressure 2 tension/R that a contact of these cells bears.
 void judge_values(BuildContext& c, const draft::ContactPair& pair, const SurfaceLaw& law, const Materials& materials) {
   if (law.judge == nullptr || !c.draft.limits.overlap.known()) return;
@@ -100,6 +115,10 @@ void judge_values(BuildContext& c, const draft::ContactPair& pair, const Surface
 }  // namespace
 
 void build_contact_pairs(BuildContext& c) {
+  const Given<std::string>& friction = c.draft.contact.friction;
+  if (friction.given && friction.value == "objective" && !may_have_shells(c.draft))
+    c.diagnostics.warning(515, friction.place, "`friction: objective` is of surfaces, and all cells are always spheres: it has no effect",
+                          "remove it: spheres do not turn");
   const std::size_t count = c.draft.cell_types.size() + c.draft.geometry.size();
   std::vector<const Place*> seen(count * count, nullptr);
   for (const auto& [name, place, d] : c.draft.contact.pairs) {
@@ -108,6 +127,7 @@ void build_contact_pairs(BuildContext& c) {
     const auto found = materials_of(c, d.between);
     if (!found) continue;
     const auto [a, b] = *found;
+    check_surfaces(c, d, *found);
     judge_values(c, d, *law, *found);
     const std::size_t slot = std::min(a, b) * count + std::max(a, b);
     if (seen[slot] != nullptr) {

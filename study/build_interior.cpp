@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -18,9 +19,12 @@ std::vector<double> levels_of_field(const BuildContext& c, const draft::Osmosis&
   for (const auto& point : field->content.course) factors.push_back(point.content.value.value);
   if (factors.empty()) factors.push_back(1.0);
   const draft::FieldBoundary& b = field->content.boundary;
-  for (const Given<double>* face : {&b.all, &b.x_low, &b.x_high, &b.y_low, &b.y_high, &b.z_low, &b.z_high})
-    for (const double factor : factors)
-      if (face->known() && face->value >= 0.0) out.push_back(face->value * factor);  // below 0: no flux
+  const std::array<const Given<double>*, 6> faces{&b.x_low, &b.x_high, &b.y_low, &b.y_high, &b.z_low, &b.z_high};
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    const Given<double>& face = faces[k]->given ? *faces[k] : b.all;
+    if (c.study.model.space.periodic(static_cast<int>(k / 2)) || !face.known() || face.value < 0.0) continue;  // below 0: no flux
+    for (const double factor : factors) out.push_back(face.value * factor);
+  }
   return out;
 }
 

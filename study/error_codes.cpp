@@ -85,7 +85,9 @@ constexpr ErrorCode kCodes[] = {
      "Two laws of one shell resist changes of its area. Their moduli add: say `area: {on_top: true}` where that is meant."},
     {514, "Poisson ratio outside the law",
      "A net of springs with an area modulus has a Poisson ratio of at least 1/3: below, the area modulus would be negative."},
-    {515, "key without effect", "The key belongs to another law than the one that is chosen; it would be read and left aside."},
+    {515, "key without effect",
+     "The key belongs to another law than the one that is chosen, or to bodies that no cell has (warning); it would be read and left "
+     "aside."},
     {516, "law without its numbers", "The law that is chosen needs a number that has no default."},
     {517, "surfaces that sink into each other",
      "The repulsion is so soft that the pressure within the cells pushes their surfaces through each other (warning)."},

@@ -68,6 +68,19 @@ TEST(ContactPairs, ThatContradictThemselvesAreRefusedWithTheirPlace) {
   EXPECT_NE(message("law: falling", "law: hooke").find("hooke"), std::string::npos);
 }
 
+/// Spheres meet by the law of `cbm`; what a pair says of surfaces would be left aside.
+TEST(ContactPairs, OfSpheresAloneWarnOfWhatIsOfSurfaces) {
+  EXPECT_EQ(test::warnings_of(kStudy).find("515"), std::string::npos);
+  const std::string spheres = test::changed(", as: shell", "", kStudy), warnings = test::warnings_of(spheres);
+  EXPECT_NE(warnings.find("`law` is of surfaces"), std::string::npos) << warnings;
+  EXPECT_NE(warnings.find("`range` is of surfaces"), std::string::npos) << warnings;
+  EXPECT_NE(warnings.find("`repulsion` is of surfaces"), std::string::npos) << warnings;
+  EXPECT_EQ(warnings.find("_friction` is"), std::string::npos) << warnings;
+  const auto objective = [](const std::string& text) { return test::changed("contact:\n", "contact:\n  friction: objective\n", text); };
+  EXPECT_NE(test::warnings_of(objective(spheres)).find("`friction: objective` is of surfaces"), std::string::npos);
+  EXPECT_EQ(test::warnings_of(objective(kStudy)).find("515"), std::string::npos);
+}
+
 TEST(ContactPairs, OfSoftBodiesWarnThatSurfacesSinkIntoEachOther) {
   EXPECT_EQ(test::warnings_of(kStudy).find("517"), std::string::npos);
   const std::string warnings = test::warnings_of(test::changed("modulus: 20 kPa", "modulus: 500 Pa", kStudy));

@@ -102,6 +102,12 @@ TEST(InteriorKeys, OsmolaritiesAreJudgedWithWhatAFieldAdds) {
   EXPECT_THAT(told("outside: 300 mM, inactive: 10 %",
                    "initial: 0 mM, boundary: {x_low: 100 mM}, course: [{time: 0 h, factor: 1}, {time: 1 h, factor: 50}]"),
               HasSubstr("(5000 mM of it 'salt')"));
+  // Faces across which the domain goes on have no concentration.
+  std::string periodic = text("outside: 300 mM, inactive: 10 %", "initial: 0 mM, boundary: {x_low: 5000 mM}");
+  EXPECT_THAT(errors_of(periodic), HasSubstr("[E536]"));
+  const std::string size = "size: [100 um, 100 um, 100 um]";
+  periodic.replace(periodic.find(size), size.size(), size + ", boundary: {x: periodic}");
+  EXPECT_TRUE(read(periodic).ok());
 }
 
 TEST(InteriorKeys, ThatDoNotGoTogetherAreRefused) {
