@@ -30,7 +30,7 @@ LawInfo lumen_law() {
 LawInfo spring_law() {
   return {.name = "apical_spring",
           .title = "Spring and damper towards the mean sphere of marked faces",
-          .equation = "F_i = −A_i [µ v_i + k (|x_i − X| − R) r̂_i − m], X, R: mean centre and radius; m: so that the sum is zero",
+          .equation = "F_i = −A_i [µ v_i + k (|x_i − X| − R) r̂_i − m], X, R: mean centre and radius now; m: so that the sum is zero",
           .source = kReview,
           .parameters = {given_by_study("stiffness", "pressure per length", "kPa/µm", "k per marked area."),
                          given_by_study("friction", "friction per area", "nN·s/µm³", "µ per marked area.")}};

@@ -135,4 +135,21 @@ double marked_area(const Topology& topology, std::span<const Vec3d> x, const Mar
   return out;
 }
 
+std::vector<double> marked_node_areas(const dcm::Shells& shells, int mark) {
+  std::vector<double> out(shells.node_count(), 0.0);
+  for (std::size_t s = 0; s < shells.size(); ++s) {
+    const MarkSets marks = shells.marks_of(s);
+    if (marks.empty()) continue;
+    const auto x = shells.nodes(s);
+    const auto faces = shells.topology(s).faces();
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      if (!marks.has(f, mark)) continue;
+      const Triangle& t = faces[f];
+      const double third = norm(cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]])) / 6.0;
+      for (const std::uint32_t node : t) out[shells.first_node[s] + node] += third;
+    }
+  }
+  return out;
+}
+
 }  // namespace morula

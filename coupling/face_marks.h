@@ -32,4 +32,7 @@ void ease_contact(const Model& model, Tissue& tissue, std::span<const float> now
 /// Total area of the faces of a shell with a mark [µm²].
 double marked_area(const Topology& topology, std::span<const Vec3d> position, const MarkSets& marks, int mark);
 
+/// A third of the areas of the faces with a mark around every node [µm²].
+std::vector<double> marked_node_areas(const dcm::Shells& shells, int mark);
+
 }  // namespace morula

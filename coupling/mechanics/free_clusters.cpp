@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <numeric>
 
 #include "core/parallel/threads.h"
@@ -9,7 +10,8 @@
 namespace morula {
 namespace {
 
-constexpr std::uint64_t kTied = 0;            // no cell has this label, and it is smaller than all
+constexpr std::uint64_t kTied = 0;  // no cell has this label, and it is smaller than all
+constexpr std::uint64_t kNobody = ~std::uint64_t{0};
 constexpr std::uint32_t kManyMembers = 2048;  // of a cluster whose sums several threads share
 constexpr double kLeastDeterminant = 1e-13;   // of what resists, over the product of its diagonal: below it, rounding decides
 
@@ -73,6 +75,12 @@ struct ClusterSums {
   }
 };
 
+std::uint64_t least_of_all(std::uint64_t label, const Comm& comm) {
+  for (const std::int64_t of_rank : comm.gather_to_all(std::bit_cast<std::int64_t>(label)))
+    label = std::min(label, std::bit_cast<std::uint64_t>(of_rank));
+  return label;
+}
+
 std::vector<std::uint64_t> sorted_unique(std::vector<std::uint64_t> list) {
   std::sort(list.begin(), list.end());
   list.erase(std::unique(list.begin(), list.end()), list.end());
@@ -82,13 +90,14 @@ std::vector<std::uint64_t> sorted_unique(std::vector<std::uint64_t> list) {
 }  // namespace
 
 void FreeClusters::find(const Scene& scene, std::span<const ElementGroup> groups, const SpherePairs& spheres,
-                        std::span<const std::uint32_t> tied, int threads, const Comm& comm) {
+                        std::span<const std::vector<std::uint32_t>> joined, int threads, const Comm& comm) {
   threads_ = threads;
   const auto bodies = scene.bodies();
   std::vector<std::uint64_t> label(bodies.size()), least(bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) label[i] = bodies[i].moves ? bodies[i].id.bits() : kTied;
-  for (const std::uint32_t body : tied) label[body] = kTied;
   Sets sets = sets_of_pairs(scene, groups, spheres, threads);
+  for (const auto& list : joined)
+    for (const std::uint32_t body : list) sets.join(list.front(), body);
   // Each rank knows a part of a cluster: the smallest label goes from rank to rank until nobody finds a smaller one.
   for (bool changed = true; changed;) {
     least = label;
@@ -97,18 +106,25 @@ void FreeClusters::find(const Scene& scene, std::span<const ElementGroup> groups
     if (comm.size() == 1) break;
     least = label;
     scene.exchange_bodies(std::span(label));
+    for (const auto& list : joined) {
+      const std::uint64_t of_all = least_of_all(list.empty() ? kNobody : label[list.front()], comm);
+      if (!list.empty()) label[list.front()] = of_all;
+    }
     changed = comm.any(label != least);
   }
-  collect(scene, label, comm);
+  std::vector<std::uint64_t> far;
+  for (const auto& list : joined)
+    if (!list.empty()) far.push_back(label[list.front()]);
+  collect(scene, label, std::move(far), comm);
 }
 
-void FreeClusters::collect(const Scene& scene, std::span<const std::uint64_t> label, const Comm& comm) {
+void FreeClusters::collect(const Scene& scene, std::span<const std::uint64_t> label, std::vector<std::uint64_t> far, const Comm& comm) {
   const auto bodies = scene.bodies();
-  std::vector<std::uint64_t> labels, of_ghosts;
+  std::vector<std::uint64_t> labels;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (label[i] == kTied) continue;
     if (bodies[i].active() && (labels.empty() || labels.back() != label[i])) labels.push_back(label[i]);
-    if (!bodies[i].owned) of_ghosts.push_back(label[i]);
+    if (!bodies[i].owned) far.push_back(label[i]);
   }
   labels = sorted_unique(std::move(labels));
   clusters_.assign(labels.size(), {});
@@ -130,8 +146,8 @@ void FreeClusters::collect(const Scene& scene, std::span<const std::uint64_t> la
     if (is_member(i)) members_[cluster_of(i).last++] = i;
   if (comm.size() == 1) return;
   // Both ranks of two bodies that hang together see it: a cluster goes over several ranks where a ghost of it is beside a body of this rank.
-  std::erase_if(of_ghosts, [&](std::uint64_t label_of_ghost) { return !std::binary_search(labels.begin(), labels.end(), label_of_ghost); });
-  over_ranks_.find(sorted_unique(std::move(of_ghosts)), comm);
+  std::erase_if(far, [&](std::uint64_t of_other) { return !std::binary_search(labels.begin(), labels.end(), of_other); });
+  over_ranks_.find(sorted_unique(std::move(far)), comm);
 }
 
 std::vector<Vec3d> FreeClusters::shifts(std::span<const OutsideBalance> by_body, const Comm& comm) const {

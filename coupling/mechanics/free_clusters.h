@@ -19,12 +19,13 @@ namespace morula {
 /// laboratory: whatever the velocities between its points, the exact solution of the force balance has Σ C v = Σ b. Conjugate gradients find this motion last, for it is the
 /// softest of all. A rigid shift of the cluster mends it and changes nothing else (time_stepping.md §11.1).
 ///
-/// Bodies that do not move, or that springs on marked faces hold (Term::add_tied), are tied, and so is their whole cluster.
+/// Bodies that do not move are tied, and so is their whole cluster.
 class FreeClusters {
  public:
-  /// Clusters of the present matrix: bodies hang together where a pair of them has a part in it. `tied`: bodies, by number. Collective.
-  void find(const Scene& scene, std::span<const ElementGroup> groups, const SpherePairs& spheres, std::span<const std::uint32_t> tied,
-            int threads, const Comm& comm);
+  /// Clusters of the present matrix: bodies hang together where a pair of them has a part in it, or where they are in a list of `joined`, together with
+  /// those of other ranks' same list. Collective.
+  void find(const Scene& scene, std::span<const ElementGroup> groups, const SpherePairs& spheres,
+            std::span<const std::vector<std::uint32_t>> joined, int threads, const Comm& comm);
   /// The velocity V = (Σ C)⁻¹ (Σ b − Σ C v) by body that each free cluster lacks [µm/s]; 0 for tied ones, for ghosts, and where nothing
   /// resists. The same bits on any number of ranks. Collective.
   [[nodiscard]] std::vector<Vec3d> shifts(std::span<const OutsideBalance> by_body, const Comm& comm) const;
@@ -35,7 +36,8 @@ class FreeClusters {
     std::uint64_t label = 0;            ///< bits of the smallest CellId
     std::uint32_t first = 0, last = 0;  ///< its active bodies of this rank, in members_
   };
-  void collect(const Scene& scene, std::span<const std::uint64_t> label, const Comm& comm);
+  /// `far`: labels of clusters that hang together with bodies of other ranks of which there may be no ghosts.
+  void collect(const Scene& scene, std::span<const std::uint64_t> label, std::vector<std::uint64_t> far, const Comm& comm);
 
   int threads_ = 1;
   std::vector<std::uint32_t> members_;  ///< bodies, by cluster

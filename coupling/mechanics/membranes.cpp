@@ -38,7 +38,7 @@ void Membranes::add_friction(const World&, const Way& way, std::span<Vec3d> out,
 void Membranes::add_noise(const World& world, const Noise& noise, std::span<Vec3d> force) const {
   const Random random(noise.seed, RandomStream::kFluctuationOfNodes);
   const dcm::Shells& shells = world.tissue.shells;
-  const std::vector<SymMat3<double>> blocks = nodes_.friction(world.tissue, world.geometry);
+  const std::vector<SymMat3<double>> blocks = nodes_.at(world.tissue, world.geometry);
   for (std::size_t k = 0; k < shells.size(); ++k) {
     const double energy = world.model.types[shells.type[k]].fluctuations.energy;
     if (energy == 0.0) continue;

@@ -2,7 +2,7 @@
 #include <span>
 #include <vector>
 
-#include "coupling/mechanics/node_terms.h"
+#include "coupling/mechanics/node_friction.h"
 #include "coupling/mechanics/shell_system.h"
 #include "coupling/mechanics/term.h"
 
@@ -15,7 +15,7 @@ namespace morula {
 class Membranes : public Term {
  public:
   /// `nodes`: the friction that single nodes have beside the shells' own. What a node feels of the medium is drawn as a whole.
-  Membranes(const Model& model, const NodeTerms& nodes) : shells_(model), nodes_(nodes) {}
+  Membranes(const Model& model, const NodeFriction& nodes) : shells_(model), nodes_(nodes) {}
 
   void bodies_changed(const World& world) override;
   void evaluate(const World& world, Forces& out) override;
@@ -38,7 +38,7 @@ class Membranes : public Term {
 
  private:
   ShellSystem shells_;
-  const NodeTerms& nodes_;
+  const NodeFriction& nodes_;
   std::span<const dcm::HeldVolume> held_;
 };
 

@@ -11,6 +11,8 @@ namespace morula {
 namespace {
 
 constexpr double kLeastInertia = 1e-9;  // of a direction about which nothing turns, in units of the largest
+/// Square of the extent over that of the way from the origin, below which all is one point, a sphere, but for rounding.
+constexpr double kLeastExtent = 1e-9;
 
 Vec3d to_double(const Float4& v) { return {v.x, v.y, v.z}; }
 
@@ -57,9 +59,9 @@ TissueMotion motion_of(const MotionTerms& t, bool rotates) {
   out.way = t[10] / weight;
   if (!rotates) return out;
   const Vec3d torque = Vec3d{t[7], t[8], t[9]} - cross(centre, push);
-  const SymMat3<double> second = SymMat3<double>{t[11], t[12], t[13], t[14], t[15], t[16]} + outer(-weight, centre);
+  const SymMat3<double> about_origin{t[11], t[12], t[13], t[14], t[15], t[16]}, second = about_origin + outer(-weight, centre);
   const double trace = second.xx + second.yy + second.zz;
-  if (!(trace > 0.0)) return out;
+  if (!(trace > kLeastExtent * (about_origin.xx + about_origin.yy + about_origin.zz))) return out;
   // Points on one line do not turn about it: there the torque is zero, and a little inertia keeps the quotient zero.
   out.rotation = inverse(isotropic(trace * (1.0 + kLeastInertia)) + -1.0 * second) * torque;
   return out;

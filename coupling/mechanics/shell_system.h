@@ -41,7 +41,7 @@ class ShellSystem : public OperatorPart {
   void add_step_friction(std::span<const Vec3d> position, std::span<Vec3d> out, OrderFreeSum& quadratic);
 
   /// function(shell, node, γ) for the nodes of the shells of a batch: friction with the medium of the step [nN·s/µm], shell by shell.
-  /// `beside`: what single nodes have more (NodeTerms::friction()).
+  /// `beside`: what single nodes have more (NodeFriction).
   template <class F>
   void for_medium_friction(std::size_t batch, std::span<const SymMat3<double>> beside, F&& function) const {
     const LaneBlock& block = blocks_.blocks[batch];

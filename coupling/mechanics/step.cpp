@@ -40,9 +40,9 @@ void add_random_forces(Workspace& work, const Tissue& tissue, double dt, std::sp
 }
 
 void find_clusters(Workspace& work, const World& world, std::span<const ElementGroup> groups) {
-  std::vector<std::uint32_t> tied;
-  for (const auto& term : work.terms.all) term->add_tied(world, tied);
-  work.solver.clusters.find(work.scene, groups, work.terms.spheres->pairs(), tied, work.setting.threads, work.setting.comm);
+  std::vector<std::vector<std::uint32_t>> joined;
+  for (const auto& term : work.terms.all) term->add_joined(world, joined);
+  work.solver.clusters.find(work.scene, groups, work.terms.spheres->pairs(), joined, work.setting.threads, work.setting.comm);
 }
 
 /// What obstacles and walls hold, with a step of dt.

@@ -101,8 +101,8 @@ class Term : public AddedPart {
   virtual void add_noise(const World&, const Noise&, std::span<Vec3d> /*force*/) const {}
   /// Adds −Δt times the forces of what stands outside of the tissue to `out` [nN·s], and what it has given since the start to the sum [fJ].
   virtual void add_outside(const Way&, double /*dt*/, std::span<Vec3d> /*out*/, OrderFreeSum& /*work*/) {}
-  /// Adds the owned bodies that something outside of the tissue holds, where it is not in add_outside_balance().
-  virtual void add_tied(const World&, std::vector<std::uint32_t>& /*bodies*/) const {}
+  /// Adds, for each of its parts, the owned bodies that do forces upon each other though no contact is between them. As many lists on every rank.
+  virtual void add_joined(const World&, std::vector<std::vector<std::uint32_t>>& /*bodies*/) const {}
   /// The step has come to its end: what it leaves in the tissue beside positions. Collective.
   virtual void end_step(const World&, StepEnd&) {}
   /// The step was taken back.

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "coupling/mechanics/apical_springs.h"
 #include "coupling/mechanics/face_tensions.h"
 
 namespace morula {
@@ -13,15 +14,15 @@ Terms make_terms(const Model& model, RigidSurfaces obstacles, int threads) {
     out.all.push_back(std::move(term));
     return here;
   };
-  auto nodes = std::make_unique<NodeTerms>(model);
-  out.membranes = add(std::make_unique<Membranes>(model, *nodes));
-  out.node_friction = add(std::make_unique<NodeFriction>(*nodes));
+  auto node_friction = std::make_unique<NodeFriction>(model);
+  out.membranes = add(std::make_unique<Membranes>(model, *node_friction));
+  out.node_friction = add(std::move(node_friction));
   out.contacts = add(std::make_unique<SurfaceContacts>(model, std::move(obstacles), threads));
   out.spheres = add(std::make_unique<SphereContacts>(model, *out.contacts));
   out.interior = add(std::make_unique<InteriorSystem>(model));
   out.nuclei = add(std::make_unique<NucleusSystem>(model, *out.membranes, threads));
   add(std::make_unique<FaceTensions>(model));
-  add(std::move(nodes));
+  add(std::make_unique<ApicalSprings>(model));
   add(std::make_unique<ContactFriction>(*out.contacts));
   add(std::make_unique<SphereFriction>(*out.spheres));
   out.grips = add(std::make_unique<Grips>());

@@ -7,7 +7,7 @@
 #include "coupling/mechanics/held_nodes.h"
 #include "coupling/mechanics/interior_system.h"
 #include "coupling/mechanics/membranes.h"
-#include "coupling/mechanics/node_terms.h"
+#include "coupling/mechanics/node_friction.h"
 #include "coupling/mechanics/nucleus_system.h"
 #include "coupling/mechanics/sphere_contacts.h"
 #include "coupling/mechanics/surface_contacts.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/mesh/primitives.h"
-#include "coupling/mechanics/node_terms.h"
+#include "coupling/mechanics/node_friction.h"
 #include "coupling/simulation.h"
 #include "scenarios/verify/lone_shell.h"
 #include "scenarios/verify/reference_numbers.h"
@@ -83,7 +83,7 @@ double directed_drag() {
   const SurfaceGeometry at = geometry(tissue.shells);
   const Vec3d v = normalized(Vec3d{1, 2, 3});
   double drag = 0.06 * at.area[0];
-  for (const auto& block : NodeTerms(model).friction(tissue, at)) drag += dot(v, block * v);
+  for (const auto& block : NodeFriction(model).at(tissue, at)) drag += dot(v, block * v);
   return drag / at.area[0];
 }
 

@@ -129,6 +129,50 @@ output: {report: false}
 }
 
 /// A lid that has pressed a shell goes back by 50 nm: the shell follows, and the force falls by little. (It was lost for an hour: nodes that would have met the
+/// Springs that hold marked faces near their mean sphere go with the cell, whatever a step is long.
+TEST_F(DefaultNumerics, SpringsOfMarkedFacesHoldNoCellInItsPlace) {
+  const auto way = [&](const std::string& springs, const std::string& step, const std::string& name) {
+    run_whole(R"(schema: 1
+study: apical
+time: {end: 10 min, output: 2 min)" +
+                  step +
+                  R"(}
+domain: {size: [60 um, 60 um, 60 um]}
+cell_types:
+  c: {radius: 6 um, body: shell}
+marks: {apical: {types: [c], cone: {toward: [0 um, 0 um, 90 um], angle: 60 deg}}}
+loads:
+  p: {type: c, patch: {force: [0.28 nN, 0 nN, 0 nN], toward: [1, 0, 0], part: 10 %}}
+initial: [{type: c, at: [0 um, 0 um, 0 um], orientation: aligned}]
+output: {report: false}
+)" + springs,
+              name);
+    return column(name, "centre_drift").back();
+  };
+  const std::string springs = "apical: {s: {mark: apical, stiffness: 0.05 kPa/um}}\n";
+  const double usual = way(springs, "", "usual");
+  EXPECT_NEAR(usual, way(springs, ", step: 2 s", "short"), 0.002 * usual);
+  EXPECT_NEAR(usual, way("", "", "free"), 0.02 * usual);  // the marked faces bulge, and 1 % more surface rubs
+}
+
+/// A sphere does not turn, whatever way it goes.
+TEST_F(DefaultNumerics, ASphereAloneDoesNotTurn) {
+  run_whole(R"(schema: 1
+study: ball
+time: {end: 10 min, output: 2 min}
+domain: {size: [60 um, 60 um, 60 um]}
+cell_types:
+  c: {radius: 6 um}
+loads:
+  p: {type: c, body_force: [0.2 nN, 0.1 nN, 0 nN]}
+initial: [{type: c, at: [3 um, 0 um, 7 um]}]
+output: {report: false}
+)",
+            "ball");
+  EXPECT_GT(column("ball", "centre_drift").back(), 0.5);
+  EXPECT_EQ(column("ball", "rotation").back(), 0.0);
+}
+
 /// lid a little later were held where they were.)
 TEST_F(DefaultNumerics, AShellFollowsAPlateThatGoesBack) {
   run_whole(R"(schema: 1
