@@ -90,6 +90,8 @@ double Mechanics::energy(const Tissue& tissue) {
   return prepare(*work_, tissue).energy;
 }
 
+double Mechanics::known_energy(const Tissue& tissue) { return prepare(*work_, tissue).energy; }
+
 std::size_t Mechanics::external_size(const Tissue& tissue) {
   const auto rigid_nuclei = std::ranges::count_if(tissue.shells.nucleus, [](const auto& center) { return center.has_value(); });
   return tissue.shells.node_count() + tissue.spheres.size() + static_cast<std::size_t>(rigid_nuclei) + tissue.nuclei.shells.node_count();

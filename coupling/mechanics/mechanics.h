@@ -74,6 +74,8 @@ class Mechanics {
 
   /// Energy of all terms at the tissue's positions, of all ranks [nN·µm]; scene() is that of them then. Collective.
   double energy(const Tissue& tissue);
+  /// The same where parameters are what they were at the last step or look(): nothing is found again that is known. Collective.
+  double known_energy(const Tissue& tissue);
 
   /// Which part of every owned face (in the order of the shells) is in contact with cells or obstacles of the materials with
   /// with_material[material] != 0, at the tissue's positions; 0 to 1, with the taper of contact friction at the rim. Collective.

@@ -282,7 +282,6 @@ void Interval::add(const StepOutcome& outcome) {
   linear += static_cast<std::uint64_t>(outcome.mechanics.linear_iterations);
   retries += static_cast<std::uint64_t>(outcome.retries);
   worst_overlap = std::max(worst_overlap, outcome.mechanics.overlap);
-  energy = outcome.mechanics.energy;
 }
 
 }  // namespace morula

@@ -58,7 +58,7 @@ struct Interval {
   double time = 0.0;  ///< stepped [s]
   std::uint64_t newton = 0, linear = 0, retries = 0;
   double worst_overlap = 0.0;  ///< of any step [µm]
-  double energy = 0.0;         ///< after the last step [nN·µm]
+  double energy = 0.0;         ///< at its end [nN·µm]
 
   void add(const StepOutcome& outcome);
 };

@@ -114,8 +114,6 @@ Status RunLoop::begin() {
     return std::move(placed).error();
   }
   keep_events(*placed);
-  std::vector<Vec3d> ignored;
-  interval_.energy = simulation_->mechanics().energy_and_forces(simulation_->tissue(), ignored);
   count_cells();
   tell_idle_loads();
   MORULA_TRY(begin_results(folder_.results(), results_head(study_), comm_));
@@ -276,10 +274,12 @@ Status RunLoop::output() {
   {
     auto timed = simulation_->timer().scope(Stage::kObserve);
     measures = measure(*simulation_);
+    interval_.energy =
+        simulation_->mechanics().known_energy(simulation_->tissue());  // cells may have divided or changed their bodies since the step
     expect_growth(measures.of_type);
     MORULA_TRY(write_moment(measures));
   }
-  interval_ = Interval{.energy = interval_.energy};
+  interval_ = {};
   Status within = check_limits(measures);
   MORULA_TRY(agree(write_events(), comm_));  // what the limits warn of belongs to this moment: a checkpoint comes after it
   const double seconds = std::chrono::duration<double>(SteadyClock::now() - began).count();

@@ -103,6 +103,17 @@ TEST_F(DivisionRun, GoesFromOneToFourAndLosesNoVolume) {
   EXPECT_EQ(column("four", "divisions").back(), 3.0);
 }
 
+/// A row in the moment of a division tells the daughters' energy, as it tells their number. In the second after it the energy only grows, with the
+/// cells (0.03 nN µm/s) and with the tension of the new faces (150 µm² of it, 0.15 nN/µm in ten minutes, for each daughter); that of the mother was higher.
+TEST_F(DivisionRun, TellsTheEnergyOfTheDaughters) {
+  run_whole(one_shell("growth: linear", "1801 s"), "second");
+  const auto cells = column("second", "cell_count"), energy = column("second", "energy");
+  ASSERT_EQ(energy.size(), 8u);
+  EXPECT_EQ(cells[6], 2.0);
+  EXPECT_GT(energy[7], energy[6]);
+  EXPECT_LT(energy[7], energy[6] + 0.2);
+}
+
 TEST_F(DivisionRun, HasTheSameBitsOnTwoThreadsAndAfterARestart) {
   const std::string text = one_shell("share: {mean: 40 %, spread: 10 %}, axis: long, axis_spread: 20 deg", "40 min");
   const RunSummary whole = run_whole(text, "whole");
