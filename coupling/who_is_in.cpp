@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "coupling/regions/counts_from.h"
+#include "coupling/tissue_middle.h"
 
 namespace morula {
 namespace {
@@ -12,36 +13,40 @@ bool needs_center(const Swaps& swaps) {
   return std::any_of(swaps.regions.begin(), swaps.regions.end(), [](const Region& r) { return r.follow_tissue; });
 }
 
-Vec3d tissue_centroid(std::span<const Vec3d> center, const Comm& comm) {
+/// Of the images nearest to the middle of the tissue. Collective.
+Vec3d tissue_centroid(const Space& space, std::span<const Vec3d> center, const Comm& comm) {
+  const Vec3d middle = space.any_periodic() ? tissue_middle(space, center, {}, comm).at : Vec3d{};
   OrderFreeSum sums[4];
   for (const Vec3d& c : center) {
-    sums[0].add(c.x);
-    sums[1].add(c.y);
-    sums[2].add(c.z);
+    const Vec3d from = space.any_periodic() ? space.nearest_image(c - middle) : c;
+    sums[0].add(from.x);
+    sums[1].add(from.y);
+    sums[2].add(from.z);
     sums[3].add(1.0);
   }
   double total[4];
   comm.sum(sums, total);
-  return total[3] > 0.0 ? Vec3d{total[0], total[1], total[2]} * (1.0 / total[3]) : Vec3d{};
+  return total[3] > 0.0 ? middle + Vec3d{total[0], total[1], total[2]} * (1.0 / total[3]) : Vec3d{};
 }
 
 /// Of the images of a place along the periodic axes that which is deepest in the region, or nearest to it.
 double distance_outside(const Region& region, const Vec3d& from, const Space& space) {
   if (!region.shape->repeats || !space.any_periodic()) return region.shape->distance(region, from);
+  const Vec3d near = space.nearest_image(from);  // what a region follows may have gone round the domain
   const Vec3d edges = space.box.size();
   const auto images = [&](int axis) { return space.periodic(axis) ? 1 : 0; };
   double least = std::numeric_limits<double>::infinity();
   for (int x = -images(0); x <= images(0); ++x)
     for (int y = -images(1); y <= images(1); ++y)
       for (int z = -images(2); z <= images(2); ++z)
-        least = std::min(least, region.shape->distance(region, from + Vec3d{x * edges.x, y * edges.y, z * edges.z}));
+        least = std::min(least, region.shape->distance(region, near + Vec3d{x * edges.x, y * edges.y, z * edges.z}));
   return least;
 }
 
 }  // namespace
 
 std::vector<Vec3d> centers_of_regions(const Model& model, const Tissue& tissue, std::span<const Vec3d> center, const Comm& comm) {
-  const Vec3d of_tissue = needs_center(model.swaps) ? tissue_centroid(center, comm) : Vec3d{};
+  const Vec3d of_tissue = needs_center(model.swaps) ? tissue_centroid(model.space, center, comm) : Vec3d{};
   std::vector<Vec3d> out;
   for (const Region& region : model.swaps.regions) {
     out.push_back(region.center);

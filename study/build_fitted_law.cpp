@@ -134,11 +134,15 @@ void check_fitted_laws(BuildContext& c) {
     const double spread = 3.0 * t.radius.spread.value, mean = t.radius.mean.value;
     // E*, W and the curve of packing are material: forces go with R, and pairs of 1 to 1.3 are held out (physics/fields_and_coupling.md E).
     constexpr double kSlack = 0.3;
-    if (mean * (1.0 - spread) < (1.0 - kSlack) * fitted.smallest_radius || mean * (1.0 + spread) > (1.0 + kSlack) * fitted.largest_radius)
+    const CellType& type = c.study.model.types[fitted.type];
+    const double grown = type.cycles ? std::cbrt(type.cycle.ratio) : 1.0;
+    if (mean * (1.0 - spread) < (1.0 - kSlack) * fitted.smallest_radius ||
+        mean * grown * (1.0 + spread) > (1.0 + kSlack) * fitted.largest_radius)
       c.diagnostics.warning(534, t.sphere_file.place,
                             "the law of '" + name + "' was fitted to radii of " + number_text("%.3g", fitted.smallest_radius) + " to " +
-                                number_text("%.3g um", fitted.largest_radius) + ", and its cells have " + t.radius.mean.text +
-                                " with a spread of " + t.radius.spread.text + ": more than 30 % beyond",
+                                number_text("%.3g um", fitted.largest_radius) + ", and its cells are born with " + t.radius.mean.text +
+                                " and a spread of " + t.radius.spread.text +
+                                (type.cycles ? ", and divide at " + number_text("%.3g um", mean * grown) : "") + ": more than 30 % beyond",
                             "forces of other sizes follow the form of the law, which the fit does not vouch for");
   }
 }

@@ -105,7 +105,9 @@ void build_phases(BuildContext& c, const draft::CellType& t, CellType& type) {
   CellCycle& cycle = type.cycle;
   if (t.cycle_model.value != "phases") {
     if (!t.cycle.phases.empty() && t.cycle_model.known())
-      c.diagnostics.error(515, t.cycle.phases.front().place, "phases have no effect here", "they belong to `model: phases`");
+      c.diagnostics.error(515, t.cycle_model.given ? t.cycle_model.place : t.cycle.phases.front().place,
+                          "the phases of '" + type.name + "' have no effect here",
+                          "they belong to `model: phases`; `phases: default` where they are those of the type that it is `like`");
     if (t.cycle.has_quiescence)
       c.diagnostics.error(515, t.cycle.quiescent_phase.place, "'quiescence' has no effect here", "it belongs to `model: phases`");
     return;

@@ -16,7 +16,7 @@ namespace morula::scenarios {
 struct CsvCell {
   Vec3d position{};  ///< [µm]
   std::uint16_t type = 0;
-  double radius = 0.0;           ///< of the cell at birth [µm]; 0: not given, drawn from its type
+  double radius = 0.0;           ///< of the cell at time 0 [µm]; 0: not given, drawn from its type
   double phase = -1.0;           ///< point of its cycle, 0 (birth) to 1 (division); −1: not given
   std::optional<BodyKind> body;  ///< not given: as the study says
   int line = 0;                  ///< in the file, from 1

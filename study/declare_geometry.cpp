@@ -194,6 +194,7 @@ void declare_initial(Section& s, draft::Initial& i) {
          i.age);
   s.text({.name = "csv",
           .doc = "Cells from a CSV file with the columns x,y,z,type[,radius,phase,model]; units in the header, `x [um]`, or as `units`. "
+                 "`radius`: of the cell as it is at time 0, wherever it is in its cycle. "
                  "`phase`: how far a cell is in its "
                  "cycle, from 0 (birth) to below 1; of types without a cycle it says nothing. `model`: `sphere` or `shell`.",
           .example = "cells.csv"},

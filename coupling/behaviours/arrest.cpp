@@ -76,7 +76,8 @@ std::shared_ptr<const ArrestFactor> by_pressure_hill() {
 std::shared_ptr<const ArrestFactor> by_volume() {
   return make_factor({.info = {.name = "arrest_by_volume",
                                .title = "Arrest of compressed cells",
-                               .equation = "g = min(1, max(0, (v − v2)/(v1 − v2))), v = V/V_t, V_t the target volume, v1: `from`, v2: `to`",
+                               .equation = "g = min(1, max(0, (v − v2)/(v1 − v2))), v = V/V_t, V what its pressure leaves of the cell, V_t "
+                                           "the target volume, v1: `from`, v2: `to`",
                                .source = "Van Liedekerke et al. 2019: growth by volumetric strain",
                                .parameters = {given_by_study("from", "fraction", "1", "V/V_t at which it begins."),
                                               given_by_study("to", "fraction", "1", "V/V_t at which it is full.")}},
@@ -88,7 +89,7 @@ std::shared_ptr<const ArrestFactor> by_volume() {
                       .looks_at_body = true,
                       .build = [](const OwnValues& values) -> ArrestOf {
                         return [from = values("from"), to = values("to")](const CellView& cell) {
-                          return ramp(cell.volume / cell.row().target_volume, from, to);
+                          return ramp(cell.pressed_volume() / cell.row().target_volume, from, to);
                         };
                       },
                       .judge = &judge_falling});

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <numbers>
 
 #include "core/ball.h"
 #include "core/contact/contact_layer.h"
 #include "coupling/loads/grips.h"
 #include "coupling/mechanics/scene.h"
 #include "coupling/swaps.h"
+#include "coupling/tissue_middle.h"
 
 namespace morula {
 namespace {
@@ -170,33 +170,12 @@ void add_cell(Simulation& simulation, const BodyValues& values, const AsBalls& b
   ++to.of_type[row.type];
 }
 
-/// From where centres are measured: the middle of the domain; along periodic axes the direction in which the cells' volumes lie about a circle, so that a tissue
-/// across a face is one. Collective.
+/// Of the cells' volumes. Collective.
 Vec3d middle_of(const Space& space, const Tissue& tissue, const BodyValues& values, std::span<const Vec3d> center, const Comm& comm) {
-  Vec3d out = space.box.center();
-  if (!space.any_periodic()) return out;
-  constexpr double kTurn = 2.0 * std::numbers::pi;
-  constexpr double kEven = 1e-6;  // part of the volume: cells all around have no direction
-  double Vec3d::*const along[] = {&Vec3d::x, &Vec3d::y, &Vec3d::z};
-  OrderFreeSum sums[7];
-  for (const BodyOfRow& owned : bodies_of(tissue.cells)) {
-    const double volume = values.volume[owned.place(tissue.shells.size())];
-    sums[6].add(volume);
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto at = along[axis];
-      const double angle = kTurn * (center[owned.row].*at - out.*at) / (space.box.size().*at);
-      sums[2 * axis].add(volume * std::cos(angle));
-      sums[2 * axis + 1].add(volume * std::sin(angle));
-    }
-  }
-  double total[7];
-  comm.sum(sums, total);
-  for (int axis = 0; axis < 3; ++axis) {
-    const double c = total[2 * axis], s = total[2 * axis + 1];
-    if (space.periodic(axis) && std::hypot(c, s) > kEven * total[6])
-      out.*along[axis] += space.box.size().*along[axis] * std::atan2(s, c) / kTurn;
-  }
-  return out;
+  if (!space.any_periodic()) return space.box.center();
+  std::vector<double> volume(center.size());
+  for (const BodyOfRow& owned : bodies_of(tissue.cells)) volume[owned.row] = values.volume[owned.place(tissue.shells.size())];
+  return tissue_middle(space, center, volume, comm).at;
 }
 
 /// Numbers and extremes over all ranks. Collective.

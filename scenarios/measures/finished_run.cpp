@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coupling/tissue_middle.h"
 #include "results/file_io.h"
 #include "results/snapshot_file.h"
 #include "scenarios/measures/holds.h"
@@ -13,6 +14,33 @@ namespace {
 
 constexpr std::size_t kKept = 4;    // snapshots
 constexpr double kSameTime = 1e-6;  // two times that differ by less are one output; relative beyond a second
+
+/// Moves the cells of a tissue that is on one side of a periodic domain to their images nearest to its middle.
+void bring_together(Snapshot& snapshot, Space space) {
+  constexpr double kOneSide = 0.5;  // of tissue_middle(): cells all around the domain have no middle
+  if (!space.any_periodic() || snapshot.cells.empty()) return;
+  if (snapshot.box.size().x > 0.0) space.box = snapshot.box;
+  std::vector<Vec3d> center;
+  std::vector<double> volume;
+  for (const Snapshot::Cell& cell : snapshot.cells) center.push_back(cell.centroid), volume.push_back(cell.volume);
+  const TissueMiddle middle = tissue_middle(space, center, volume, Comm());
+  for (int axis = 0; axis < 3; ++axis)
+    if (middle.directed[axis] < kOneSide) space.boundary[static_cast<std::size_t>(axis)].fill(BoundaryKind::kOpen);
+  std::vector<Vec3d> shift(center.size());
+  const Vec3d edges = space.box.size();
+  for (std::size_t i = 0; i < center.size(); ++i) {
+    const Vec3d from = center[i] - middle.at, way = space.nearest_image(from) - from;
+    shift[i] = {edges.x * std::round(way.x / edges.x), edges.y * std::round(way.y / edges.y), edges.z * std::round(way.z / edges.z)};
+    snapshot.cells[i].centroid += shift[i];
+  }
+  const auto move = [&](const std::vector<Snapshot::Shell>& shells, std::vector<Vec3d>& nodes) {
+    for (const Snapshot::Shell& shell : shells)
+      for (Vec3d& x : std::span(nodes).subspan(shell.first_node, shell.node_count)) x += shift[shell.cell];
+  };
+  move(snapshot.shells, snapshot.nodes);
+  move(snapshot.nuclear_shells, snapshot.nuclear_nodes);
+  for (Snapshot::Nucleus& nucleus : snapshot.nuclei) nucleus.center += shift[nucleus.cell];
+}
 
 }  // namespace
 
@@ -66,6 +94,7 @@ Result<std::shared_ptr<const Snapshot>> FinishedRun::snapshot(std::size_t index)
   for (const auto& [number, one] : kept_)
     if (number == index) return one;
   MORULA_TRY_ASSIGN(Snapshot read, read_snapshot(folder_ / "results.h5", index));
+  bring_together(read, study_.model.space);
   if (kept_.size() == kKept) kept_.pop_front();
   kept_.emplace_back(index, std::make_shared<const Snapshot>(std::move(read)));
   return kept_.back().second;

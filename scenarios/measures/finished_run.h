@@ -36,7 +36,8 @@ class FinishedRun {
   /// kFile where the file is missing or damaged; so do the others.
   Result<const SeriesTable*> series();
   Result<const std::vector<double>*> snapshot_times();
-  /// `index` as in snapshot_times().
+  /// `index` as in snapshot_times(). A tissue that lies on one side of a periodic domain is in one piece, across a face or not: its cells are at their images
+  /// nearest to its middle.
   Result<std::shared_ptr<const Snapshot>> snapshot(std::size_t index);
   /// The snapshot of time 0; null where there is none: a run that goes on from another begins later.
   Result<std::shared_ptr<const Snapshot>> start() { return snapshot_at(0.0); }

@@ -82,10 +82,18 @@ Measure nearest_sphere_measure() {
     const TriangleTree surface(obstacle.position, obstacle.faces);
     const Vec3d way = obstacle.way(0.0, snapshot.time);
     double nearest2 = kFar2;
+    const Space& space = study.model.space;
+    const Vec3d edges = space.box.size();
+    const auto images = [&](int axis) { return space.periodic(axis) ? 1 : 0; };
     for (const Snapshot::Cell& cell : snapshot.cells) {
       if (cell.body != BodyKind::kSphere) continue;
-      const auto found = surface.nearest(cell.centroid - way, std::sqrt(nearest2));
-      if (found) nearest2 = std::min(nearest2, found->closest.distance2);
+      const Vec3d place = space.wrapped(cell.centroid - way);  // the obstacle may have gone round the domain
+      for (int x = -images(0); x <= images(0); ++x)
+        for (int y = -images(1); y <= images(1); ++y)
+          for (int z = -images(2); z <= images(2); ++z) {
+            const auto found = surface.nearest(place + Vec3d{x * edges.x, y * edges.y, z * edges.z}, std::sqrt(nearest2));
+            if (found) nearest2 = std::min(nearest2, found->closest.distance2);
+          }
     }
     return nearest2 < kFar2 ? std::optional(std::sqrt(nearest2)) : std::nullopt;
   });

@@ -5,6 +5,7 @@
 #include "core/ball.h"
 #include "scenarios/measures/elastic_cap.h"
 #include "scenarios/measures/measures.h"
+#include "scenarios/measures/ways_of_cells.h"
 
 namespace morula::scenarios {
 namespace {
@@ -25,17 +26,18 @@ Result<std::vector<Sample>> take_drift(FinishedRun& run, const Subject& subject,
   MORULA_TRY_ASSIGN(const std::vector<double>* const times, run.snapshot_times());
   std::vector<Sample> out;
   MORULA_TRY_ASSIGN(const auto start, run.start());
-  if (start == nullptr) return out;
-  const auto before = cells_of_pair(*start, subject);
-  for (const std::size_t index : moments.among(*times)) {
-    MORULA_TRY_ASSIGN(const auto snapshot, run.snapshot(index));
-    const auto now = cells_of_pair(*snapshot, subject);
-    if (!before || !now) continue;
-    const double r0 = ball_radius(0.5 * (now->first->volume + now->second->volume));
-    const Vec3d here = (now->first->centroid + now->second->centroid) * 0.5;
-    const Vec3d there = (before->first->centroid + before->second->centroid) * 0.5;
-    out.push_back({snapshot->time, norm(here - there) / r0, ""});
-  }
+  if (start == nullptr || !cells_of_pair(*start, subject)) return out;
+  const std::size_t first = Moments{Moments::Kind::kBetween, start->time, start->time}.among(*times).front();
+  Vec3d way_of_first;
+  MORULA_TRY(for_ways_since(run, first, moments.among(*times), [&](const Snapshot& snapshot, const Snapshot::Cell& cell, const Vec3d& way) {
+    const auto now = cells_of_pair(snapshot, subject);
+    if (!now) return;
+    const auto& [a, b] = *now;
+    const bool is_earlier = cell.id == std::min(a->id, b->id);  // cells come in the order of their ids
+    if (is_earlier) way_of_first = way;
+    if (cell.id == std::max(a->id, b->id))
+      out.push_back({snapshot.time, norm((way_of_first + way) * 0.5) / ball_radius(0.5 * (a->volume + b->volume)), ""});
+  }));
   return out;
 }
 

@@ -225,8 +225,9 @@ Measure jump_measure() {
       const double ratio = (later->time - time) / (time - past->time);
       for (const Cell& cell : later->cells) {
         if (!is_meant(cell, subject) || !start.contains(cell.id) || !earlier.contains(cell.id)) continue;
-        const Vec3d drift = (start[cell.id] - earlier[cell.id]) * ratio;
-        found.push_back({time, norm(cell.centroid - start[cell.id] - drift), cell.id.text()});
+        const Space& space = run.study().model.space;
+        const Vec3d drift = space.nearest_image(start[cell.id] - earlier[cell.id]) * ratio;
+        found.push_back({time, norm(space.nearest_image(cell.centroid - start[cell.id]) - drift), cell.id.text()});
       }
     }
     return found;

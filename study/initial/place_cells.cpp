@@ -45,24 +45,19 @@ void start_small(CellState& row, const InitialCells& block) {
   row.inflation_rate = row.inflation_left / block.inflate_time;
 }
 
-/// What a CSV row says about its cell.
-void apply_csv(CellState& row, const CsvCell& csv, const CellType& type, const Model& model) {
-  if (csv.radius > 0.0) {
-    const double volume = ball_volume(csv.radius);
-    row.target_volume *= volume / row.birth_volume;
-    row.birth_volume = volume;
-    row.division_volume = division_volume(row, type, model.seed);
-  }
-  if (csv.phase >= 0.0 && type.cycles)
-    set_place(row, type, settle_at(row, type, model.seed, 0.0, csv.phase), cycle_variables_of(model.fields.size()));
-  if (csv.body) row.body = row.own_body = *csv.body;
-}
-
 /// The cell has this volume at time 0, whatever the point of its cycle.
 void set_volume(CellState& row, const Model& model, double volume) {
   row.birth_volume *= volume / row.target_volume;
   row.division_volume = division_volume(row, model.types[row.type], model.seed);
   row.target_volume = volume;
+}
+
+/// What a CSV row says about its cell.
+void apply_csv(CellState& row, const CsvCell& csv, const CellType& type, const Model& model) {
+  if (csv.phase >= 0.0 && type.cycles)
+    set_place(row, type, settle_at(row, type, model.seed, 0.0, csv.phase), cycle_variables_of(model.fields.size()));
+  if (csv.radius > 0.0) set_volume(row, model, ball_volume(csv.radius));
+  if (csv.body) row.body = row.own_body = *csv.body;
 }
 
 /// The type of every cell of a fill: exact counts by largest remainder, in an order drawn by the cells' numbers.

@@ -261,6 +261,12 @@ TEST(FittedLaw, RadiiOutsideOfTheFitAreTold) {
   const auto near = file.read(test::changed("radius: 6 um", "radius: {mean: 6 um, spread: 5 %}", kStudy));  // down to 5.1 um
   ASSERT_TRUE(near.ok());
   EXPECT_THAT(near->warnings.text(), Not(HasSubstr("E534"))) << "unequal pairs of up to 1.3 are held out of the fit";
+  for (const auto& [ratio, warns] : {std::pair("2", false), {"8", true}}) {  // at division 7.6 and 12 um
+    const auto grows =
+        file.read(test::changed("radius: 6 um", std::string("radius: 6 um\n    cycle: {duration: 20 h, ratio: ") + ratio + "}", kStudy));
+    ASSERT_TRUE(grows.ok()) << grows.error().text();
+    EXPECT_EQ(grows->warnings.text().find("E534") != std::string::npos, warns) << grows->warnings.text();
+  }
 }
 
 TEST(FittedLaw, KeysThatContradictTheFileOrHaveNoEffectAreErrors) {

@@ -230,8 +230,8 @@ TEST_F(InitialTissues, TakeRadiusPhaseAndBodyFromTheCsv) {
   const Tissue tissue = make_tissue(study(), shapes, Comm())->tissue;
   const double ball = 4.0 / 3.0 * std::numbers::pi;
   const CellRow& first = *row_of(tissue, 33);
-  EXPECT_NEAR(first.birth_volume, ball * 343.0, 1e-9);
-  EXPECT_NEAR(first.target_volume, 1.5 * ball * 343.0, 1e-9);  // halfway through linear growth
+  EXPECT_NEAR(first.target_volume, ball * 343.0, 1e-9);       // as it is now
+  EXPECT_NEAR(first.birth_volume, ball * 343.0 / 1.5, 1e-9);  // halfway through linear growth
   EXPECT_NEAR(first.birth_time, -0.5 * first.cycle_duration, 1e-9);
   EXPECT_EQ(first.body, BodyKind::kSphere);
   const CellRow& second = *row_of(tissue, 34);
