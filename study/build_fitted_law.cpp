@@ -137,12 +137,13 @@ void check_fitted_laws(BuildContext& c) {
     const CellType& type = c.study.model.types[fitted.type];
     const double grown = type.cycles ? std::cbrt(type.cycle.ratio) : 1.0;
     if (mean * (1.0 - spread) < (1.0 - kSlack) * fitted.smallest_radius ||
-        mean * grown * (1.0 + spread) > (1.0 + kSlack) * fitted.largest_radius)
+        mean * std::max(grown, 1.0 + spread) > (1.0 + kSlack) * fitted.largest_radius)
       c.diagnostics.warning(534, t.sphere_file.place,
                             "the law of '" + name + "' was fitted to radii of " + number_text("%.3g", fitted.smallest_radius) + " to " +
                                 number_text("%.3g um", fitted.largest_radius) + ", and its cells are born with " + t.radius.mean.text +
                                 " and a spread of " + t.radius.spread.text +
-                                (type.cycles ? ", and divide at " + number_text("%.3g um", mean * grown) : "") + ": more than 30 % beyond",
+                                (grown > 1.0 + spread ? ", and divide at " + number_text("%.3g um", mean * grown) : "") +
+                                ": more than 30 % beyond",
                             "forces of other sizes follow the form of the law, which the fit does not vouch for");
   }
 }
