@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/space/images.h"
 #include "coupling/regions/counts_from.h"
 #include "coupling/tissue_middle.h"
 
@@ -15,10 +16,10 @@ bool needs_center(const Swaps& swaps) {
 
 /// Of the images nearest to the middle of the tissue. Collective.
 Vec3d tissue_centroid(const Space& space, std::span<const Vec3d> center, const Comm& comm) {
-  const Vec3d middle = space.any_periodic() ? tissue_middle(space, center, {}, comm).at : Vec3d{};
+  const Vec3d middle = tissue_middle(space, center, {}, comm).at;
   OrderFreeSum sums[4];
   for (const Vec3d& c : center) {
-    const Vec3d from = space.any_periodic() ? space.nearest_image(c - middle) : c;
+    const Vec3d from = space.nearest_image(c - middle);
     sums[0].add(from.x);
     sums[1].add(from.y);
     sums[2].add(from.z);
@@ -33,13 +34,8 @@ Vec3d tissue_centroid(const Space& space, std::span<const Vec3d> center, const C
 double distance_outside(const Region& region, const Vec3d& from, const Space& space) {
   if (!region.shape->repeats || !space.any_periodic()) return region.shape->distance(region, from);
   const Vec3d near = space.nearest_image(from);  // what a region follows may have gone round the domain
-  const Vec3d edges = space.box.size();
-  const auto images = [&](int axis) { return space.periodic(axis) ? 1 : 0; };
   double least = std::numeric_limits<double>::infinity();
-  for (int x = -images(0); x <= images(0); ++x)
-    for (int y = -images(1); y <= images(1); ++y)
-      for (int z = -images(2); z <= images(2); ++z)
-        least = std::min(least, region.shape->distance(region, near + Vec3d{x * edges.x, y * edges.y, z * edges.z}));
+  for_boxes_around(space, [&](const Vec3d& shift) { least = std::min(least, region.shape->distance(region, near + shift)); });
   return least;
 }
 

@@ -21,9 +21,8 @@ void for_each_interval_field(Visit&& visit) {
   visit("linear", "1", &Interval::linear);
   visit("retries", "1", &Interval::retries);
   visit("worst_overlap", "um", &Interval::worst_overlap);
-  visit("energy", "nN um", &Interval::energy);
 }
-static_assert(sizeof(Interval) == 7 * 8, "list every member of Interval in for_each_interval_field");
+static_assert(sizeof(Interval) == 6 * 8, "list every member of Interval in for_each_interval_field");
 
 template <class Visit>
 void for_each_lumen_field(Visit&& visit) {

@@ -1,4 +1,5 @@
 #pragma once
+#include "core/vec3.h"
 
 namespace morula {
 
@@ -6,6 +7,8 @@ namespace morula {
 struct alignas(16) Float4 {
   float x = 0.0f, y = 0.0f, z = 0.0f, w = 0.0f;
 };
+
+inline Vec3d to_double(const Float4& v) { return {v.x, v.y, v.z}; }
 
 /// The same as a register.
 using Float4v [[gnu::vector_size(16)]] = float;

@@ -84,8 +84,7 @@ void Grips::add_outside_balance(std::span<const Float4> velocity, std::span<Outs
     const double all = dt_ * spring.stiffness;  // of a common velocity: Σ W = 1
     Vec3d sum;                                  // √(Δt k) Σ W v
     for (std::uint32_t i = 0; i < spring.count; ++i, ++column) {
-      const Float4& v = velocity[spring.first + i];
-      const Vec3d way{v.x, v.y, v.z};
+      const Vec3d way = to_double(velocity[spring.first + i]);
       sum += Vec3d{dot(to_double((*column)[0]), way), dot(to_double((*column)[1]), way), dot(to_double((*column)[2]), way)};
     }
     by_body[spring.body].missing -= sum * std::sqrt(all);

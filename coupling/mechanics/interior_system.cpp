@@ -77,7 +77,7 @@ void InteriorSystem::begin_step(const World& world, StepStart& start) {
   for (const Item& item : items_) {
     if (!item.has_nucleus) continue;
     Vec3d mean;
-    for (const Float4& v : start.velocity.subspan(item.first_node, item.node_count)) mean += Vec3d{v.x, v.y, v.z};
+    for (const Float4& v : start.velocity.subspan(item.first_node, item.node_count)) mean += to_double(v);
     mean *= 1.0 / item.node_count;
     start.velocity[item.nucleus] = {static_cast<float>(mean.x), static_cast<float>(mean.y), static_cast<float>(mean.z), 0.0f};
   }

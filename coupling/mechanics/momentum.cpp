@@ -14,8 +14,6 @@ constexpr double kLeastInertia = 1e-9;  // of a direction about which nothing tu
 /// Square of the extent over that of the way from the origin, below which all is one point, a sphere, but for rounding.
 constexpr double kLeastExtent = 1e-9;
 
-Vec3d to_double(const Float4& v) { return {v.x, v.y, v.z}; }
-
 /// What is summed over points of friction γ, place x and way d.
 constexpr std::size_t kTerms = 17;
 using MotionTerms = std::array<double, kTerms>;

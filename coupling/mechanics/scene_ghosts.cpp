@@ -3,6 +3,7 @@
 
 #include "core/mesh/shape_bytes.h"
 #include "core/parallel/pack.h"
+#include "core/space/images.h"
 #include "coupling/mechanics/scene.h"
 
 namespace morula {
@@ -20,16 +21,9 @@ struct GhostHeader {
 };
 
 bool overlaps_any_image(const Box& a, const Box& b, const Space& space) {
-  if (!space.any_periodic()) return a.overlaps(b);
-  const Vec3d size = space.box.size();
-  const auto most = [&](int axis) { return space.periodic(axis) ? 1 : 0; };
-  for (int x = -most(0); x <= most(0); ++x)
-    for (int y = -most(1); y <= most(1); ++y)
-      for (int z = -most(2); z <= most(2); ++z) {
-        const Vec3d shift{x * size.x, y * size.y, z * size.z};
-        if (a.overlaps({b.low + shift, b.high + shift})) return true;
-      }
-  return false;
+  bool found = false;
+  for_boxes_around(space, [&](const Vec3d& shift) { found = found || a.overlaps({b.low + shift, b.high + shift}); });
+  return found;
 }
 
 /// A ghost that has come.

@@ -241,6 +241,7 @@ Measures measure(Simulation& simulation) {
   if (std::any_of(model.types.begin(), model.types.end(), [](const CellType& type) { return type.interior.has_nuclear_shell(); }))
     out.nucleus_clearance = least_clearance(simulation);
   out.obstacle_force = simulation.mechanics().obstacle_forces(tissue);
+  out.energy = simulation.mechanics().known_energy(tissue);
   out.grip_force = grip_forces(model, tissue, comm);
   if (out.cells == 0) {  // nothing is said of cells where there are none
     out.spheroid_radius = out.largest_extent = out.mean_pressure = out.mean_contact_area = Measures::kNone;

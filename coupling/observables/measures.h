@@ -25,6 +25,7 @@ struct Measures {
   double inner_pressure = kNone;     ///< mean over shells [kPa]
   Extreme pressure;                  ///< [kPa]
   double mean_contact_area = 0.0;    ///< per cell [µm²]
+  double energy = 0.0;               ///< [nN·µm]
   double nucleus_clearance = kNone;  ///< least distance of a node of a nucleus that is a shell from its cortex, < 0 outside [µm]
   Extreme overlap;                   ///< deepest penetration of a surface (not of two spheres) [µm]
   /// |V_i − V_i^law| / V_i^law of the worst cell. V^law is built from the cell's row alone: target volume V_t and what is left of an
@@ -58,7 +59,6 @@ struct Interval {
   double time = 0.0;  ///< stepped [s]
   std::uint64_t newton = 0, linear = 0, retries = 0;
   double worst_overlap = 0.0;  ///< of any step [µm]
-  double energy = 0.0;         ///< at its end [nN·µm]
 
   void add(const StepOutcome& outcome);
 };

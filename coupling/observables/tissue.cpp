@@ -60,10 +60,8 @@ std::vector<Observable> tissue_observables(const Model&) {
       {"total_volume_error", "1",
        "Relative difference of the volume of all cells together from what their rows and, of shells, inner pressures ask for.",
        [](M m) { return m.measures.total_volume_error; }},
-      {"energy", "nN um",
-       "Elastic, surface and contact energy after the last step, before cells divided or changed their bodies at its end; of a pair of "
-       "spheres that adheres from where it would break apart.",
-       [](M m) { return m.interval.energy; }},
+      {"energy", "nN um", "Elastic, surface and contact energy; of a pair of spheres that adheres from where it would break apart.",
+       [](M m) { return m.measures.energy; }},
       {"step_count", "1", "Steps since time 0.", [](M m) { return double(m.clock.steps); }},
       {"step_size", "s", "Mean step since the last output.",
        [](M m) { return m.interval.steps > 0 ? m.interval.time / double(m.interval.steps) : m.clock.next_step; }},

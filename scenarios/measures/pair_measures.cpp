@@ -27,16 +27,16 @@ Result<std::vector<Sample>> take_drift(FinishedRun& run, const Subject& subject,
   std::vector<Sample> out;
   MORULA_TRY_ASSIGN(const auto start, run.start());
   if (start == nullptr || !cells_of_pair(*start, subject)) return out;
-  const std::size_t first = Moments{Moments::Kind::kBetween, start->time, start->time}.among(*times).front();
-  Vec3d way_of_first;
-  MORULA_TRY(for_ways_since(run, first, moments.among(*times), [&](const Snapshot& snapshot, const Snapshot::Cell& cell, const Vec3d& way) {
+  Vec3d way_of_earlier;  // of the two, as cells come in the order of their ids
+  MORULA_TRY(for_ways_since(run, 0, moments.among(*times), [&](const Snapshot& snapshot, const Snapshot::Cell& cell, const Vec3d& way) {
+    if (cell.type != subject.type && cell.type != subject.partner) return;
     const auto now = cells_of_pair(snapshot, subject);
     if (!now) return;
     const auto& [a, b] = *now;
-    const bool is_earlier = cell.id == std::min(a->id, b->id);  // cells come in the order of their ids
-    if (is_earlier) way_of_first = way;
-    if (cell.id == std::max(a->id, b->id))
-      out.push_back({snapshot.time, norm((way_of_first + way) * 0.5) / ball_radius(0.5 * (a->volume + b->volume)), ""});
+    if (cell.id == std::min(a->id, b->id))
+      way_of_earlier = way;
+    else
+      out.push_back({snapshot.time, norm((way_of_earlier + way) * 0.5) / ball_radius(0.5 * (a->volume + b->volume)), ""});
   }));
   return out;
 }

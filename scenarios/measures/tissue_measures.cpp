@@ -211,6 +211,7 @@ Measure jump_measure() {
                          "|x(t + w) - x(t) - (x(t) - x(t - w))|, w = 20 min", Quantity::kLength);
   out.take = [](FinishedRun& run, const Subject& subject, const Moments& moments) -> Result<std::vector<Sample>> {
     MORULA_TRY_ASSIGN(const std::vector<double>* const times, run.snapshot_times());
+    const Space& space = run.study().model.space;
     std::vector<Sample> found;
     for (const std::size_t at : moments.among(*times)) {
       const double time = (*times)[at];
@@ -225,7 +226,6 @@ Measure jump_measure() {
       const double ratio = (later->time - time) / (time - past->time);
       for (const Cell& cell : later->cells) {
         if (!is_meant(cell, subject) || !start.contains(cell.id) || !earlier.contains(cell.id)) continue;
-        const Space& space = run.study().model.space;
         const Vec3d drift = space.nearest_image(start[cell.id] - earlier[cell.id]) * ratio;
         found.push_back({time, norm(space.nearest_image(cell.centroid - start[cell.id]) - drift), cell.id.text()});
       }

@@ -274,8 +274,6 @@ Status RunLoop::output() {
   {
     auto timed = simulation_->timer().scope(Stage::kObserve);
     measures = measure(*simulation_);
-    interval_.energy =
-        simulation_->mechanics().known_energy(simulation_->tissue());  // cells may have divided or changed their bodies since the step
     expect_growth(measures.of_type);
     MORULA_TRY(write_moment(measures));
   }
