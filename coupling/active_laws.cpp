@@ -6,16 +6,17 @@ namespace {
 constexpr const char* kReview = "Van Liedekerke et al. 2020, doi:10.1007/s10237-019-01204-7";
 
 LawInfo tension_law() {
-  return {
-      .name = "regional_tension",
-      .title = "Cortical tension by region of the surface and in time",
-      .equation =
-          "E = Σ γ_T A_T; γ_T = (1 − φ) γ_mark(t) + φ γ_lateral(t), γ(t) = γ·course(t)·(1 + a sin(2πt/T + φ_0)), dφ/dt = (contact − φ)/τ",
-      .source = "choice of this project; the area gradient ½ n×e is that of cortical_tension",
-      .parameters = {given_by_study("tension", "tension", "nN/µm", "γ of the faces with the region's mark."),
-                     given_by_study("amplitude", "number", "1", "a of the modulation."),
-                     given_by_study("period", "time", "s", "T of the modulation."),
-                     given_by_study("lateral_easing", "time", "s", "τ in which faces in contact take the lateral tension.")}};
+  return {.name = "regional_tension",
+          .title = "Cortical tension by region of the surface and in time",
+          .equation =
+              "E = Σ γ_T A_T; γ_T = (1 − φ) γ_mark(t) + φ γ_lateral(t), γ(t) = γ·course(t)·(1 + a sin(2πt/T + φ_0)), dφ/dt = (contact − "
+              "φ)/τ; of "
+              "surfaces that bear no difference of tension φ = 0 and W + (γ − γ_lateral)_a + (γ − γ_lateral)_b ≥ 0 in place of W",
+          .source = "choice of this project; the area gradient ½ n×e is that of cortical_tension",
+          .parameters = {given_by_study("tension", "tension", "nN/µm", "γ of the faces with the region's mark."),
+                         given_by_study("amplitude", "number", "1", "a of the modulation."),
+                         given_by_study("period", "time", "s", "T of the modulation."),
+                         given_by_study("lateral_easing", "time", "s", "τ in which faces in contact take the lateral tension.")}};
 }
 
 LawInfo lumen_law() {
@@ -30,7 +31,10 @@ LawInfo lumen_law() {
 LawInfo spring_law() {
   return {.name = "apical_spring",
           .title = "Spring and damper towards the mean sphere of marked faces",
-          .equation = "F_i = −A_i [µ v_i + k (|x_i − X| − R) r̂_i − m], X, R: mean centre and radius now; m: so that the sum is zero",
+          .equation =
+              "F_i = −A_i [µ (v_i − V − Ω × r_i − s r̂_i) + k (|x_i − X| − R) r̂_i − m], r_i = x_i − X, X, R: mean centre and radius now; m: "
+              "so that "
+              "the sum is zero; V, Ω, s: common motion and mean radial speed, for which Σ A v² of what is left is least",
           .source = kReview,
           .parameters = {given_by_study("stiffness", "pressure per length", "kPa/µm", "k per marked area."),
                          given_by_study("friction", "friction per area", "nN·s/µm³", "µ per marked area.")}};

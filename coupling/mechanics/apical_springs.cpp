@@ -2,32 +2,7 @@
 
 #include <algorithm>
 
-#include "coupling/face_marks.h"
-
 namespace morula {
-namespace {
-
-/// Σ terms(node) over the marked nodes of all ranks: in fixed order within a shell, order-free over shells.
-template <std::size_t N, class ByShell, class Terms>
-std::array<double, N> total(const ByShell& list, const Comm& comm, const Terms& terms) {
-  std::array<OrderFreeSum, N> sums;
-  std::size_t k = 0;
-  for (const std::size_t end : list.ends) {
-    std::array<double, N> of_shell{};
-    for (; k < end; ++k) {
-      const std::array<double, N> more = terms(list.nodes[k]);
-      for (std::size_t n = 0; n < N; ++n) of_shell[n] += more[n];
-    }
-    for (std::size_t n = 0; n < N; ++n) sums[n].add(of_shell[n]);
-  }
-  std::array<double, N> out;
-  comm.sum(sums, out);
-  return out;
-}
-
-Vec3d to_double(const Float4& v) { return {v.x, v.y, v.z}; }
-
-}  // namespace
 
 void ApicalSprings::add_joined(const World&, std::vector<std::vector<std::uint32_t>>& bodies) const {
   for (const Spring& spring : springs_) bodies.push_back(spring.marked.shells);
@@ -37,34 +12,26 @@ void ApicalSprings::set_weights(const dcm::Shells& shells, const Comm& comm) {
   springs_.assign(model_.apical_springs.size(), {});
   for (std::size_t k = 0; k < springs_.size(); ++k) {
     Spring& spring = springs_[k];
-    const std::vector<double> area = marked_node_areas(shells, model_.apical_springs[k].mark);
-    for (std::uint32_t s = 0; s < shells.size(); ++s)
-      for (std::uint32_t i = shells.first_node[s]; i < shells.first_node[s + 1]; ++i)
-        if (area[i] > 0.0) spring.marked.add(s, {i, area[i]});
-    spring.area = total<1>(spring.marked, comm, [](const Marked& at) { return std::array{at.area}; })[0];
+    spring.marked = marked_nodes(shells, model_.apical_springs[k].mark);
+    spring.area = total<1>(spring.marked, comm, [](const MarkedNode& at) { return std::array{at.area}; })[0];
   }
 }
 
 void ApicalSprings::find_spheres(std::span<const Vec3d> x, const Comm& comm) {
-  for (std::size_t k = 0; k < springs_.size(); ++k) {
-    Spring& spring = springs_[k];
+  for (Spring& spring : springs_) {
     if (!(spring.area > 0.0)) continue;
     const double share = 1.0 / spring.area;
-    const auto mean = [&](const auto& of_node) {  // of a vector, by area
-      const auto sums = total<3>(spring.marked, comm, [&](const Marked& at) {
-        const Vec3d v = of_node(x[at.node]) * at.area;
-        return std::array{v.x, v.y, v.z};
-      });
-      return Vec3d{sums[0], sums[1], sums[2]} * share;
-    };
-    spring.center = mean([](const Vec3d& at) { return at; });
-    spring.radius =
-        total<1>(spring.marked, comm, [&](const Marked& at) { return std::array{at.area * norm(x[at.node] - spring.center)}; })[0] * share;
-    spring.pull = mean([&](const Vec3d& at) {
-      const Vec3d from = at - spring.center;
-      const double length = norm(from);
-      return length > 0.0 ? from * (model_.apical_springs[k].stiffness * (1.0 - spring.radius / length)) : Vec3d{};
+    const auto places = total<3>(spring.marked, comm, [&](const MarkedNode& at) {
+      const Vec3d v = x[at.node] * at.area;
+      return std::array{v.x, v.y, v.z};
     });
+    spring.center = Vec3d{places[0], places[1], places[2]} * share;
+    const auto ways = total<4>(spring.marked, comm, [&](const MarkedNode& at) {
+      const Vec3d from = x[at.node] - spring.center, n = direction(from) * at.area;
+      return std::array{at.area * norm(from), n.x, n.y, n.z};
+    });
+    spring.radius = ways[0] * share;
+    spring.normal = Vec3d{ways[1], ways[2], ways[3]} * share;
   }
 }
 
@@ -78,10 +45,9 @@ void ApicalSprings::add_forces(std::span<const Vec3d> x, std::span<Vec3d> force,
       for (; n < end; ++n) {
         const auto& [node, area] = spring.marked.nodes[n];
         const Vec3d from = x[node] - spring.center;
-        const double length = norm(from), off = length - spring.radius;
+        const double off = norm(from) - spring.radius;
         of_shell += 0.5 * stiffness * area * off * off;
-        force[node] += spring.pull * area;
-        if (length > 0.0) force[node] -= from * (area * stiffness * off / length);
+        force[node] -= (direction(from) * off + spring.normal * spring.radius) * (stiffness * area);
       }
       energy.add(of_shell);
     }
@@ -103,26 +69,15 @@ void ApicalSprings::assemble_at(std::span<const Vec3d> x, std::span<const char> 
     spring.moving = {};
     if (!(spring.area > 0.0)) continue;
     spring.stiffness = dt * model_.apical_springs[k].stiffness * spring.area;
-    const auto direction = [&](std::uint32_t node) {
-      const Vec3d from = x[node] - spring.center;
-      const double length = norm(from);
-      return length > 0.0 ? from * (1.0 / length) : Vec3d{};
-    };
-    std::size_t n = 0;
-    for (std::size_t s = 0; s < spring.marked.shells.size(); ++s)
-      for (; n < spring.marked.ends[s]; ++n) {
-        const auto& [node, area] = spring.marked.nodes[n];
-        if (moves.empty() || moves[spring.marked.shells[s]] != 0)
-          spring.moving.add(spring.marked.shells[s], {node, area / spring.area, direction(node)});
-      }
-    const auto sums = total<9>(spring.marked, comm, [&](const Marked& at) {
-      const double a = at.area / spring.area;
-      const Vec3d d = direction(at.node);
-      return std::array{a * d.x,       a * d.y,       a * d.z,       a * d.x * d.x, a * d.x * d.y,
-                        a * d.x * d.z, a * d.y * d.y, a * d.y * d.z, a * d.z * d.z};
+    spring.marked.for_each([&](std::uint32_t shell, const MarkedNode& at) {
+      if (moves.empty() || moves[shell] != 0)
+        spring.moving.add(shell, {at.node, at.area / spring.area, direction(x[at.node] - spring.center)});
     });
-    spring.normal = {sums[0], sums[1], sums[2]};
-    spring.second = {sums[3], sums[4], sums[5], sums[6], sums[7], sums[8]};
+    const auto sums = total<6>(spring.marked, comm, [&](const MarkedNode& at) {
+      const SymMat3<double> m = outer(at.area / spring.area, direction(x[at.node] - spring.center));
+      return std::array{m.xx, m.xy, m.xz, m.yy, m.yz, m.zz};
+    });
+    spring.second = {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5]};
   }
 }
 
@@ -158,10 +113,8 @@ void ApicalSprings::add_diagonal(std::span<SymMat3<float>> diagonal) const {
 }
 
 std::size_t ApicalSprings::memory() const {
-  const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  std::size_t total = bytes(springs_);
-  for (const Spring& spring : springs_)
-    total += bytes(spring.marked.nodes) + bytes(spring.moving.nodes) + 2 * bytes(spring.marked.ends) + 2 * bytes(spring.moving.ends);
+  std::size_t total = springs_.capacity() * sizeof(Spring);
+  for (const Spring& spring : springs_) total += spring.marked.memory() + spring.moving.memory();
   return total;
 }
 

@@ -1,9 +1,9 @@
 #pragma once
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "coupling/mechanics/marked_nodes.h"
 #include "coupling/mechanics/term.h"
 
 namespace morula {
@@ -11,8 +11,8 @@ namespace morula {
 /// Springs that hold marked faces near their mean sphere (dcm.md §15), of which cells do the forces upon each other.
 ///
 /// E = ½ k Σ A_i (|x_i − X| − R)² with X, R the area-weighted centre and mean radius of the marked nodes of the whole tissue, at the present positions,
-/// and A_i a third of the marked areas around node i at the start of the step. F_i = −A_i (k d_i r̂_i − m), m = k Σ A_j d_j r̂_j/Σ A_j, which is how X follows
-/// its nodes: the forces add up to zero. The sphere goes where the cells go, within a step too: springs resist no common motion (decision 0083).
+/// and A_i a third of the marked areas around node i at the start of the step. F_i = −A_i (k d_i r̂_i − m), m = k Σ A_j d_j r̂_j/Σ A_j = −k R N, which is how
+/// X follows its nodes: the forces add up to zero. The sphere goes where the cells go, within a step too: springs resist no common motion (decision 0083).
 class ApicalSprings : public Term {
  public:
   explicit ApicalSprings(const Model& model) : model_(model) {}
@@ -40,22 +40,6 @@ class ApicalSprings : public Term {
   void assemble_at(std::span<const Vec3d> position, std::span<const char> moves, double dt, const Comm& comm);
 
  private:
-  /// Nodes, shell by shell.
-  template <class Node>
-  struct ByShell {
-    std::vector<Node> nodes;
-    std::vector<std::uint32_t> shells, ends;  ///< shells that have nodes here, and where those of each end
-
-    void add(std::uint32_t shell, const Node& node) {
-      if (shells.empty() || shells.back() != shell) shells.push_back(shell), ends.push_back(0);
-      nodes.push_back(node);
-      ends.back() = static_cast<std::uint32_t>(nodes.size());
-    }
-  };
-  struct Marked {
-    std::uint32_t node;
-    double area;  ///< A [µm²]
-  };
   /// A marked node in the matrix, and its direction from the centre.
   struct Direction {
     std::uint32_t node;
@@ -63,15 +47,15 @@ class ApicalSprings : public Term {
     Vec3d n;
   };
   struct Spring {
-    ByShell<Marked> marked;
+    NodesByShell<MarkedNode> marked;
     double area = 0.0;    ///< Σ A of all ranks [µm²]
     double radius = 0.0;  ///< R [µm]
-    Vec3d center, pull;   ///< X [µm], m [nN/µm²]
+    Vec3d center;         ///< X [µm]
+    Vec3d normal;         ///< N = Σ A r̂/Σ A
     // of the matrix
-    ByShell<Direction> moving;
+    NodesByShell<Direction> moving;
     double stiffness = 0.0;  ///< Δt k Σ A [nN·s/µm]
-    Vec3d normal;            ///< Σ A n/Σ A of all nodes, moving or not
-    SymMat3<double> second;  ///< Σ A n nᵀ/Σ A
+    SymMat3<double> second;  ///< Σ A r̂ r̂ᵀ/Σ A of all nodes, moving or not
   };
 
   const Model& model_;

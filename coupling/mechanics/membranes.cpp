@@ -49,7 +49,7 @@ void Membranes::add_noise(const World& world, const Noise& noise, std::span<Vec3
     for (std::uint32_t i = 0; i < count; ++i) {
       const double area = world.geometry.node_area[first + i];
       const Vec3d numbers = normal_vector(random, s.cell, noise.draw(i));
-      // Across the surface and along it there may be different friction; springs rub alike in all directions.
+      // Across the surface and along it there may be different friction.
       const double base = s.law.medium_friction * area;
       const Vec3d n = world.geometry.node_normal[first + i];
       const double along = blocks.empty() ? 0.0 : dot(n, blocks[first + i] * n);

@@ -2,14 +2,11 @@
 
 #include <algorithm>
 
-#include "coupling/face_marks.h"
-
 namespace morula {
 namespace {
 
 bool has_node_friction(const Model& model) {
-  return std::ranges::any_of(model.apical_springs, [](const ApicalSpring& s) { return s.friction > 0.0; }) ||
-         std::ranges::any_of(model.types, [](const CellType& t) { return t.medium_normal_extra > 0.0 || t.medium_tangent_extra > 0.0; });
+  return std::ranges::any_of(model.types, [](const CellType& t) { return t.medium_normal_extra > 0.0 || t.medium_tangent_extra > 0.0; });
 }
 
 }  // namespace
@@ -26,11 +23,6 @@ std::vector<SymMat3<double>> NodeFriction::at(const Tissue& tissue, const Surfac
       out[i] += outer(area * (type.medium_normal_extra - type.medium_tangent_extra), geometry.node_normal[i]);
       out[i] += isotropic(area * type.medium_tangent_extra);
     }
-  }
-  for (const ApicalSpring& damper : model_.apical_springs) {
-    if (!(damper.friction > 0.0)) continue;
-    const std::vector<double> area = marked_node_areas(shells, damper.mark);
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] += isotropic(damper.friction * area[i]);
   }
   return out;
 }

@@ -6,11 +6,10 @@
 
 namespace morula {
 
-/// Friction of single nodes of shells beside the isotropic friction with the medium: different coefficients across and along the surface (dcm.md §1),
-/// and the dampers of marked faces (dcm.md §15). Nothing, and at no cost, where no type and no study asks for it.
+/// Friction of single nodes of shells beside the isotropic friction with the medium: different coefficients across and along the surface (dcm.md §1).
+/// Nothing, and at no cost, where no type asks for it.
 ///
-/// Of node i: a_i [(γ_n − γ_t) n_i n_iᵀ] or a_i [(γ_t − γ_n) (I − n_i n_iᵀ)], whichever is positive, on top of the lesser of both; and
-/// µ A_i of a damper, A_i a third of the marked areas around the node. All of the step's start.
+/// Of node i: a_i [(γ_n − γ_t) n_i n_iᵀ] or a_i [(γ_t − γ_n) (I − n_i n_iᵀ)], whichever is positive, on top of the lesser of both, at the step's start.
 ///
 /// A term of its own: sums over terms run in their order, and this friction comes before that of all others. Its noise is drawn with that of the medium
 /// (Membranes).

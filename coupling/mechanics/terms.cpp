@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "coupling/mechanics/apical_dampers.h"
 #include "coupling/mechanics/apical_springs.h"
 #include "coupling/mechanics/face_tensions.h"
 
@@ -23,6 +24,7 @@ Terms make_terms(const Model& model, RigidSurfaces obstacles, int threads) {
   out.nuclei = add(std::make_unique<NucleusSystem>(model, *out.membranes, threads));
   add(std::make_unique<FaceTensions>(model));
   add(std::make_unique<ApicalSprings>(model));
+  add(std::make_unique<ApicalDampers>(model));
   add(std::make_unique<ContactFriction>(*out.contacts));
   add(std::make_unique<SphereFriction>(*out.spheres));
   out.grips = add(std::make_unique<Grips>());

@@ -7,21 +7,10 @@
 
 #include "coupling/face_marks.h"
 #include "coupling/simulation.h"
-#include "tests/coupling/tissue_fixture.h"
+#include "tests/coupling/sprung_model.h"
 
 namespace morula {
 namespace {
-
-Model sprung() {
-  Model model = test::clusters_model();
-  model.mark_names = {"apical"};
-  FaceMark rule;
-  rule.axis_from = FaceMark::Axis::kTowardPoint;
-  rule.angle = 1.0;
-  model.marks = {rule};
-  model.apical_springs = {{.name = "inner", .mark = 0, .stiffness = 0.3, .friction = 0.2}};
-  return model;
-}
 
 Tissue ring_of_cells(const Model& model, ShapeLibrary& shapes) {
   std::vector<Vec3d> center;
@@ -82,7 +71,7 @@ double largest(const std::vector<Vec3d>& a) {
 }
 
 TEST(ApicalSprings, ForceIsMinusTheGradientAndTheNetForceIsZero) {
-  const Model model = sprung();
+  const Model model = test::sprung_model();
   ShapeLibrary shapes;
   const Tissue tissue = ring_of_cells(model, shapes);
   const std::vector<Vec3d>& x = tissue.shells.position;
@@ -104,7 +93,7 @@ TEST(ApicalSprings, ForceIsMinusTheGradientAndTheNetForceIsZero) {
 
 /// Where all nodes lie on the mean sphere nothing is left out: K is the second derivative.
 TEST(ApicalSprings, StiffnessIsTheSecondDerivativeOnTheSphere) {
-  Model model = sprung();
+  Model model = test::sprung_model();
   model.marks[0].angle = std::numbers::pi;  // all faces
   ShapeLibrary shapes;
   Tissue tissue = test::make_tissue(model, shapes, {{3, 4, 5}}, {BodyKind::kShell});
@@ -123,7 +112,7 @@ TEST(ApicalSprings, StiffnessIsTheSecondDerivativeOnTheSphere) {
 
 /// Springs between cells resist neither shifts nor turns, and no motion makes them give energy.
 TEST(ApicalSprings, StiffnessResistsNoCommonMotion) {
-  const Model model = sprung();
+  const Model model = test::sprung_model();
   ShapeLibrary shapes;
   const Tissue tissue = ring_of_cells(model, shapes);
   const std::vector<Vec3d>& x = tissue.shells.position;
@@ -146,7 +135,7 @@ TEST(ApicalSprings, StiffnessResistsNoCommonMotion) {
 
 /// A push moves a cell as far in long steps as in short ones.
 TEST(ApicalSprings, DoNotHoldACellInItsPlace) {
-  Model model = sprung();
+  Model model = test::sprung_model();
   CellLoad load;
   load.force = {0.5, 0, 0};
   model.loads = {load};
@@ -166,7 +155,7 @@ TEST(ApicalSprings, DoNotHoldACellInItsPlace) {
 }
 
 TEST(ApicalSprings, MakeTheMarkedFacesASphere) {
-  Model model = sprung();
+  Model model = test::sprung_model();
   model.apical_springs[0].stiffness = 2.0;
   model.step.max_step = 20.0;
   ShapeLibrary shapes;

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "coupling/face_marks.h"
 #include "coupling/simulation.h"
 #include "tests/coupling/tissue_fixture.h"
 
@@ -70,25 +69,6 @@ TEST(NodeFriction, AForceMovesACellByTheMeanOfItsFriction) {
   const double speed = norm(simulation->centers()[0] - from) / (simulation->tissue().clock.time - start);
   const double expected = 0.1 / (simulation->values().area[0] * (0.3 + 2.0 * 0.05) / 3.0);
   EXPECT_NEAR(speed / expected, 1.0, 0.02);
-}
-
-/// Dampers of marked faces: µ of the marked area, shared by its nodes.
-TEST(NodeFriction, DampersRubByMarkedArea) {
-  Model model = test::clusters_model();
-  model.mark_names = {"apical"};
-  FaceMark rule;
-  rule.axis_from = FaceMark::Axis::kTowardPoint;
-  rule.angle = 1.0;
-  model.marks = {rule};
-  model.apical_springs = {{.name = "inner", .mark = 0, .stiffness = 0.3, .friction = 0.2}};
-  ShapeLibrary shapes;
-  Tissue tissue = test::make_tissue(model, shapes, {{11, 0, 0}, {0, 11, 0}}, std::vector(2, BodyKind::kShell));
-  mark_new_shells(model, tissue);
-  double trace = 0.0, area = 0.0;
-  for (const auto& b : NodeFriction(model).at(tissue, geometry_of(tissue))) trace += b.xx + b.yy + b.zz;
-  for (std::size_t s = 0; s < 2; ++s) area += marked_area(tissue.shells.topology(s), tissue.shells.nodes(s), tissue.shells.marks_of(s), 0);
-  EXPECT_GT(area, 50.0);
-  EXPECT_NEAR(trace / 3.0, 0.2 * area, 1e-10);
 }
 
 }  // namespace
