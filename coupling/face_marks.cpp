@@ -118,7 +118,7 @@ void ease_contact(const Model& model, Tissue& tissue, std::span<const float> now
     const std::size_t count = tissue.shells.topology(shell).face_count(), begin = first_face;
     first_face += count;
     const RegionalTension& tension = model.types[type].regional_tension;
-    if (!tension.has_lateral()) return;
+    if (!tension.eases_contact()) return;
     std::vector<float>& contact = tissue.shells.faces_of(shell).contact;
     contact.resize(count, 0.0f);
     const auto gain = static_cast<float>(-std::expm1(-dt / tension.easing));

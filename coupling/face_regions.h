@@ -47,6 +47,8 @@ struct TensionRegion {
 
   /// γ(t) = γ·course(t)·(1 + a sin(2πt/T + φ)) [nN/µm].
   [[nodiscard]] double at(double time) const;
+  [[nodiscard]] double least() const;  ///< at any time [nN/µm]
+  [[nodiscard]] bool varies() const { return !course.empty() || period > 0.0; }
 };
 
 /// The regions of a type. Of those whose mark a face carries the first one holds, the cell's own tension (or kWhole) where there is none; contact
@@ -54,15 +56,19 @@ struct TensionRegion {
 struct RegionalTension {
   std::vector<TensionRegion> regions;
   double easing = 60.0;  ///< time in which a face that comes into contact takes the lateral tension [s]
+  /// A fluid surface bears no difference of tension: what contact lowers it by is an energy of the contact, and surfaces adhere by that
+  /// (decision 0084). Not where tensions or adhesion differ by marks.
+  bool lateral_adheres = false;
 
   [[nodiscard]] bool empty() const { return regions.empty(); }
-  [[nodiscard]] bool has_lateral() const {
-    for (const TensionRegion& region : regions)
-      if (region.mark == TensionRegion::kLateral) return true;
-    return false;
-  }
+  [[nodiscard]] bool varies() const;
+  /// Faces have the lateral tension as far as their eased contact says.
+  [[nodiscard]] bool eases_contact() const { return lateral() != nullptr && !lateral_adheres; }
   /// Tension of a face that carries these marks and is in contact with other cells by this part [nN/µm].
   [[nodiscard]] double of_face(double own, MarkSet marks, double contact, double time) const;
+  /// What contact with other cells takes from the tension of surfaces that adhere by it; 0: of others [nN/µm].
+  [[nodiscard]] double drop_in_contact(double own, double time) const;
+  [[nodiscard]] const TensionRegion* lateral() const;  ///< null: contact changes no tension
 };
 
 /// A cavity between cells whose fluid presses on the faces that look into it (dcm.md §15; fields_and_coupling.md B).

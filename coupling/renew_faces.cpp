@@ -30,7 +30,7 @@ void Simulation::renew_faces(double dt) {
   renew_surfaces(model_.types, tissue_.cells, tissue_.shells, tissue_.clock.time, dt);
   const bool follow = has_marks_that_follow(model_);
   bool lateral = false;
-  for (const CellType& type : model_.types) lateral = lateral || type.regional_tension.has_lateral();
+  for (const CellType& type : model_.types) lateral = lateral || type.regional_tension.eases_contact();
   if (!follow && !lateral) return;
   auto timed = timer().scope(Stage::kBehaviours);
   if (follow) {

@@ -68,7 +68,7 @@ bool any_water_flows(const Model& model, const Tissue& tissue, Mechanics& mechan
 
 /// The lateral tension of any face of this rank still follows its contact. Collective.
 bool any_lateral_tension_follows(const Model& model, const Tissue& tissue, Mechanics& mechanics) {
-  if (std::ranges::none_of(model.types, [](const CellType& type) { return type.regional_tension.has_lateral(); })) return false;
+  if (std::ranges::none_of(model.types, [](const CellType& type) { return type.regional_tension.eases_contact(); })) return false;
   std::vector<char> cells(model.material_count(), 0);
   std::fill_n(cells.begin(), model.types.size(), 1);
   const std::vector<float> now = mechanics.contact_of_faces(tissue, cells);

@@ -86,13 +86,6 @@ void build_marks(BuildContext& c) {
   }
 }
 
-/// Least tension of a region at any time.
-double least_tension(const TensionRegion& region) {
-  double factor = 1.0;
-  if (!region.course.empty()) factor = *std::min_element(region.course.value.begin(), region.course.value.end());
-  return region.tension * factor * (1.0 - (region.period > 0.0 ? region.amplitude : 0.0));
-}
-
 /// Contacts need a tension above half of the adhesion of their own, or something elastic.
 void check_tension(BuildContext& c, std::size_t type, const TensionRegion& region, const Named<draft::TensionRegion>& item) {
   const Model& model = c.study.model;
@@ -100,7 +93,7 @@ void check_tension(BuildContext& c, std::size_t type, const TensionRegion& regio
   double most = 0.0;
   for (std::size_t other = 0; other < model.types.size() && !model.pairs.empty(); ++other)
     most = std::max(most, model.pair(type, other).adhesion);
-  const double least = least_tension(region);
+  const double least = region.least();
   if (most == 0.0 || 2.0 * least > most) return;
   const std::string what = "the tension of '" + item.name + "' falls to " + short_number(least) +
                            " mN/m, half of the adhesion between cells (" + short_number(most) + " mJ/m^2) or less: ";
@@ -111,22 +104,38 @@ void check_tension(BuildContext& c, std::size_t type, const TensionRegion& regio
     c.diagnostics.warning(556, item.content.tension.place, what + "only the elasticity of the cortex holds contacts there", help);
 }
 
-/// A fluid bears no difference of tension along its surface: contacts lie a little beside Young's law where there is one (measured with doublets of
-/// 162 and 642 nodes, tensions of 0.1 to 0.4 mN/m against 0.3: the difference counts by 82 to 92 % only).
+/// What contact takes from the tension of a fluid is an energy of the contact where nothing else differs along its surface (decision 0084).
+bool lateral_adheres(const BuildContext& c, std::size_t type) {
+  const auto& [name, place, t] = c.draft.cell_types[type];
+  const auto is_mark = [](const auto& item) { return item.name != "lateral" && item.name != "whole"; };
+  const auto adheres_by_marks = [&name](const auto& pair) {
+    return !pair.content.regions.empty() && std::ranges::find(pair.content.between.value, name) != pair.content.between.value.end();
+  };
+  return !resists_in_plane(t) && std::ranges::none_of(t.tension_regions, is_mark) &&
+         std::ranges::none_of(c.draft.contact.pairs, adheres_by_marks);
+}
+
+/// Of fluids: contacts that cannot hold, and those that lie a little beside Young's law, since a fluid bears no difference of tension along its surface
+/// (measured with doublets of 162 and 642 nodes, tensions of 0.1 to 0.4 mN/m against 0.3: the difference counts by 82 to 92 % only).
 void check_lateral(BuildContext& c, std::size_t type, const TensionRegion& region, const Named<draft::TensionRegion>& item) {
   const Model& model = c.study.model;
-  const double free = model.types[type].shell.tension, difference = free - region.tension;
+  const double difference = model.types[type].shell.tension - region.tension;
   if (region.mark != TensionRegion::kLateral || difference == 0.0 || resists_in_plane(c.draft.cell_types[type].content)) return;
   const double adhesion = model.pairs.empty() ? 0.0 : model.pair(type, type).adhesion, as_adhesion = adhesion + 2.0 * difference;
-  std::string help = "give an elastic cortex";
-  if (as_adhesion > 0.0 && as_adhesion < 2.0 * free)
-    help = "an adhesion of " + short_number(as_adhesion) +
-           " mJ/m^2 between such cells, with one tension everywhere, has the angle of that law";
-  c.diagnostics.warning(695, item.content.tension.place,
-                        "the tension in contact differs from that of the free surface by " + short_number(std::abs(difference)) +
-                            " mN/m, and a cortex that is not elastic flows to where it is higher: contact angles miss Young's law, as if a "
-                            "tenth to a fifth of the difference were not there",
-                        help);
+  const auto warn = [&](const std::string& what, const std::string& help) {
+    c.diagnostics.warning(
+        695, item.content.tension.place,
+        "the tension in contact differs from that of the free surface by " + short_number(std::abs(difference)) + " mN/m, " + what, help);
+  };
+  if (!model.types[type].regional_tension.lateral_adheres)
+    warn(
+        "and a cortex that is not elastic flows to where it is higher: contact angles miss Young's law, as if a tenth to a fifth of the "
+        "difference were not "
+        "there",
+        "no tension or adhesion by marks beside it, or an elastic cortex");
+  else if (as_adhesion < 0.0)
+    warn("more than half of the adhesion bears: such cells do not stick to each other, as if they had no adhesion",
+         "less tension in contact, or an adhesion above " + short_number(-2.0 * difference) + " mJ/m^2");
 }
 
 void build_tensions(BuildContext& c) {
@@ -134,6 +143,7 @@ void build_tensions(BuildContext& c) {
     const draft::CellType& t = c.draft.cell_types[i].content;
     RegionalTension& out = c.study.model.types[i].regional_tension;
     out.easing = t.lateral_easing.value;
+    out.lateral_adheres = lateral_adheres(c, i);
     // Renewal comes after each step, at the shape that this has found.
     if (const double rate = c.study.model.types[i].shell.turnover_rate; rate > 0.0)
       c.study.model.step.max_step = std::min(c.study.model.step.max_step, 0.1 / rate);
@@ -160,10 +170,12 @@ void build_tensions(BuildContext& c) {
       check_lateral(c, i, region, item);
       out.regions.push_back(std::move(region));
     }
-    const auto is_lateral = [](const auto& item) { return item.name == "lateral"; };
     // Resolved studies name the usual value in any case: it is part of the material that laws are fitted to.
-    if (t.lateral_easing.given && t.lateral_easing.value != RegionalTension().easing && std::ranges::none_of(t.tension_regions, is_lateral))
-      c.diagnostics.error(515, t.lateral_easing.place, "'lateral_easing' has no effect here", "it belongs to the region `lateral`");
+    if (t.lateral_easing.given && t.lateral_easing.value != RegionalTension().easing && !out.eases_contact())
+      c.diagnostics.error(515, t.lateral_easing.place, "'lateral_easing' has no effect here",
+                          out.lateral() == nullptr
+                              ? "it belongs to the region `lateral`"
+                              : "surfaces of a cortex that is not elastic adhere by what contact takes from their tension, at once");
     if (!out.empty() && !may_be_shell(c, i))
       c.diagnostics.error(555, t.tension_regions.front().place,
                           "regions are of a surface, and cells of '" + c.draft.cell_types[i].name + "' are always spheres",

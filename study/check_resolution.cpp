@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "study/build.h"
+#include "study/read_section.h"
 
 namespace morula::scenarios {
 namespace {
@@ -24,6 +25,15 @@ std::uint64_t cells_of_type(const draft::Study& study, const std::string& type) 
   return out;
 }
 
+/// By how much contact lowers the tension of a type at the start [nN/µm].
+double drop_in_contact(const BuildContext& c, const std::string& name) {
+  for (std::size_t i = 0; i < c.draft.cell_types.size(); ++i) {
+    const CellType& type = c.study.model.types[i];
+    if (c.draft.cell_types[i].name == name) return type.regional_tension.drop_in_contact(type.shell.tension, 0.0);
+  }
+  return 0.0;
+}
+
 /// Many cells that adhere nearly as much as their tension allows fold at triple lines, and a fine mesh cannot pass over the folds.
 void check_strong_adhesion(BuildContext& c) {
   if (!may_have_shells(c.draft)) return;
@@ -33,17 +43,36 @@ void check_strong_adhesion(BuildContext& c) {
       const auto other =
           std::find_if(c.draft.cell_types.begin(), c.draft.cell_types.end(), [&](const auto& type) { return type.name == sticks.name; });
       if (other == c.draft.cell_types.end() || !sticks.content.known() || !other->content.tension.known()) continue;
-      const double ratio = sticks.content.value / (t.tension.value + other->content.tension.value);
+      const double drops = drop_in_contact(c, name) + drop_in_contact(c, other->name);
+      const double ratio = (sticks.content.value + drops) / (t.tension.value + other->content.tension.value);
       const bool same = other->name == name;
       const std::uint64_t cells = cells_of_type(c.draft, name) + (same ? 0 : cells_of_type(c.draft, other->name));
       if (ratio < kStrong || ratio >= 1.0 || cells < 3) continue;  // from 1 on: E509
       char text[32];
       std::snprintf(text, sizeof text, "%.2f", ratio);
       c.diagnostics.error(571, sticks.content.given ? sticks.content.place : place,
-                          "shells of '" + name + "' with " + t.nodes.text + " nodes cannot follow an adhesion of " + text +
+                          "shells of '" + name + "' with " + t.nodes.text + " nodes cannot follow an adhesion" +
+                              (drops != 0.0 ? " (with what contact takes from the tension)" : "") + " of " + text +
                               " times the tension of both surfaces where more than two cells meet",
                           "`nodes: " + std::to_string(kEnoughNodes) + "` can; or adhesion up to 0.9 times both tensions");
     }
+  }
+}
+
+/// Noise moves a node of a surface under tension by √(k_B T/γ): where that is a good part of an edge, meshes fold.
+void check_noise(BuildContext& c) {
+  constexpr double kMuch = 0.5;  // of the mean edge (162 nodes, 0.1 mN/m: 0.34 runs, 0.6 creeps, 1.1 folds at once)
+  for (std::size_t i = 0; i < c.draft.cell_types.size(); ++i) {
+    const auto& [name, place, t] = c.draft.cell_types[i];
+    const double energy = c.study.model.types[i].fluctuations.energy, tension = c.study.model.types[i].shell.tension;
+    if (!(energy > 0.0) || !(tension > 0.0) || !t.radius.mean.known() || !may_be_shell(c, i)) continue;
+    const double edge = mean_edge(t.nodes.value) * t.radius.mean.value, most = kMuch * kMuch * edge * edge * tension;
+    if (energy <= most) continue;
+    c.diagnostics.error(705, t.activity.energy.given ? t.activity.energy.place : place,
+                        "fluctuations of " + t.activity.energy.text + " move the nodes of shells of '" + name + "' by " +
+                            short_number(std::sqrt(energy / tension)) + " um against their tension, and edges of the mesh are " +
+                            short_number(edge) + " um long",
+                        "an `energy` of at most " + short_number(most) + " fJ, fewer nodes, or more tension");
   }
 }
 
@@ -71,6 +100,7 @@ void check_bulk(BuildContext& c) {
 
 void check_resolution(BuildContext& c) {
   check_strong_adhesion(c);
+  check_noise(c);
   check_bulk(c);
 }
 

@@ -77,6 +77,15 @@ double ContactLayer::own_adhesion(const SurfacePair& pair) const {
   return std::sqrt(own_.adhesion[pair.a] * (pair.rigid ? 1.0 : own_.adhesion[pair.b]));
 }
 
+double ContactLayer::both_tensions(const ContactScene& scene, const SurfacePair& pair, double ContactMaterial::*of) const {
+  const auto one = [&](std::uint32_t i, std::uint32_t other) {
+    if (scene.bodies[i].shape == BodyShape::kSphere) return 0.0;
+    const double of_type = material(scene.bodies[i].material, scene.bodies[other].material).*of;
+    return own_.tension.empty() ? of_type : of_type * own_.tension[i];
+  };
+  return one(pair.a, pair.b) + one(pair.b, pair.a);
+}
+
 double ContactLayer::patch_motion(const ContactScene& scene, const SurfacePair& pair) const {
   BodyMotion side[2];
   for (int which = 0; which < 2; ++which) {
@@ -179,36 +188,31 @@ void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair, P
   const bool both = !pair.rigid && body[0].topology != nullptr && body[1].topology != nullptr;
   ContactMaterial contact = material_of(scene, pair);
   const ListReach reach = reach_of(pair, contact);
-  const double own = own_adhesion(pair);
-  double adhering = bonding_ * own;  // factor on W
-  if (!both && !pair.rigid) {        // a sphere gives way by its own foundation (fields_and_coupling.md, D)
+  double own = own_adhesion(pair);  // factor on W
+  if (!both && !pair.rigid) {       // a sphere gives way by its own foundation (fields_and_coupling.md, D)
     const bool first = body[0].topology == nullptr;
     const ContactMaterial& sphere = first ? contact : material(scene.bodies[pair.b].material, scene.bodies[pair.a].material);
     const double modulus = own_.stiffness.empty() ? sphere.sphere_modulus : sphere.sphere_modulus * own_.stiffness[first ? pair.a : pair.b];
     contact.law.repulsion = sphere.sphere_stiffness * sphere_foundation(modulus, contact.law.adhesion * own, body[first ? 0 : 1].radius);
     contact.law.gives_way = true;
     contact.law.cap = 0.0;
-    adhering *= sphere.sphere_adhesion;
+    own *= sphere.sphere_adhesion;
   }
+  double usual = contact.law.adhesion * own;
+  if (!pair.rigid) usual = std::max(0.0, usual + both_tensions(scene, pair, &ContactMaterial::tension_drop));
+  contact.law.adhesion = contact.regional ? own : usual;  // W may come with the faces
   if (const SisterBond* bond = both ? sister_bond(scene, pair) : nullptr) {
     const double newness = newness_of_interface(bond->age, contact.new_surface);
-    const auto tension = [&](std::uint32_t i, std::uint32_t other) {
-      const double of_type = material(scene.bodies[i].material, scene.bodies[other].material).tension;
-      return own_.tension.empty() ? of_type : of_type * own_.tension[i];
-    };
-    const double usual = contact.law.adhesion * own;
     if (newness > 0.0) {
-      contact.law.adhesion = usual + newness * (tension(pair.a, pair.b) + tension(pair.b, pair.a) - usual);
-      adhering = bonding_;
+      contact.law.adhesion = usual + newness * (both_tensions(scene, pair, &ContactMaterial::tension) - usual);
       contact.regional.reset();
     }
   }
-  if (contact.regional) contact.law.adhesion = 1.0;  // W comes with the faces
   if (pair.with_itself()) {
     contact.regional.reset();
     contact.law.adhesion = contact.law.cap = 0.0;
   }
-  contact.law.adhesion *= adhering;
+  contact.law.adhesion *= bonding_;
   for (int d = 0; d < 2; ++d) {
     if (pair.points[d].empty()) continue;
     evaluate_points({body[d], body[1 - d], contact, FaceQuadrature::with_points(settings_.points_per_face), reach, both ? 0.5 : 1.0,

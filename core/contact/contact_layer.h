@@ -101,7 +101,10 @@ class ContactLayer {
   [[nodiscard]] const OwnFactors& own_factors() const { return own_; }
   /// Tensions of surfaces where others have them at another time: those of `materials`, in the same order as at the start.
   void take_tensions(std::span<const ContactMaterial> materials) {
-    for (std::size_t i = 0; i < materials_.size(); ++i) materials_[i].tension = materials[i].tension;
+    for (std::size_t i = 0; i < materials_.size(); ++i) {
+      materials_[i].tension = materials[i].tension;
+      materials_[i].tension_drop = materials[i].tension_drop;
+    }
   }
   /// Surfaces of sisters that adhere otherwise than their materials do; sorted by cell.
   void set_sister_bonds(std::vector<SisterBond> bonds) { sister_bonds_ = std::move(bonds); }
@@ -207,6 +210,8 @@ class ContactLayer {
   [[nodiscard]] const SisterBond* sister_bond(const ContactScene& scene, const SurfacePair& pair) const;
   /// Factor on W of a pair: √(f_a f_b).
   [[nodiscard]] double own_adhesion(const SurfacePair& pair) const;
+  /// A tension of both surfaces of a pair together [nN/µm].
+  [[nodiscard]] double both_tensions(const ContactScene& scene, const SurfacePair& pair, double ContactMaterial::*of) const;
   /// Way of a body since the last note_motion(), when its points were `known_point` and those after it.
   [[nodiscard]] BodyMotion motion_of(const ContactScene& scene, const ContactBody& body, std::uint32_t known_point,
                                      float last_radius) const;

@@ -30,6 +30,7 @@ struct ContactMaterial {
   double sphere_stiffness = 1.0;  ///< of their foundation over sphere_foundation()
   double sphere_adhesion = 1.0;   ///< W of these spheres with shells over that of the law
   double tension = 0.0;           ///< of surfaces of the first material in contact: what a new interface of sisters begins with [nN/µm]
+  double tension_drop = 0.0;      ///< which surfaces of the first material lose in contact with the second, and adhere by [nN/µm]
   double new_surface = 0.0;       ///< time in which such an interface takes its own adhesion: the longer one of both materials [s]
   FrictionPerArea friction{};     ///< of two surfaces
   FrictionPerArea with_sphere{};  ///< of a sphere of the first material with a surface of the second

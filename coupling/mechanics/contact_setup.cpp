@@ -112,8 +112,13 @@ std::vector<ContactMaterial> contact_materials(const Model& model, double time) 
         material.sphere_modulus = sphere.young / (1.0 - sphere.poisson * sphere.poisson);
         material.sphere_stiffness = sphere.with_shells.stiffness;
         material.sphere_adhesion = sphere.with_shells.adhesion;
-        material.tension = model.types[a].regional_tension.of_face(model.types[a].shell.tension, {}, 1.0, time);
-        if (b < model.types.size()) material.new_surface = std::max(model.types[a].new_surface, model.types[b].new_surface);
+        const RegionalTension& tensions = model.types[a].regional_tension;
+        const double own = model.types[a].shell.tension;
+        material.tension = tensions.of_face(own, {}, 1.0, time);
+        if (b < model.types.size()) {
+          material.new_surface = std::max(model.types[a].new_surface, model.types[b].new_surface);
+          material.tension_drop = tensions.drop_in_contact(own, time);
+        }
       }
       material.law = traction(model, a, b);
       if (!pair.regions.empty())

@@ -9,7 +9,7 @@ namespace morula {
 FaceTensions::FaceTensions(const Model& model) : model_(model) {
   for (const CellType& type : model.types) {
     any_ = any_ || !type.regional_tension.empty();
-    for (const TensionRegion& region : type.regional_tension.regions) vary_ = vary_ || !region.course.empty() || region.period > 0.0;
+    vary_ = vary_ || type.regional_tension.varies();
   }
 }
 

@@ -37,7 +37,10 @@ ContactScene contact_scene(const Scene& scene, const SurfaceGeometry& geometry) 
 
 SurfaceContacts::SurfaceContacts(const Model& model, RigidSurfaces obstacles, int threads)
     : threads_(threads),
-      layer_(contact_settings(model, threads), std::move(obstacles), contact_materials(model), contact_material_count(model)) {}
+      layer_(contact_settings(model, threads), std::move(obstacles), contact_materials(model), contact_material_count(model)) {
+  const auto vary = [](const CellType& type) { return type.regional_tension.lateral_adheres && type.regional_tension.varies(); };
+  tensions_vary_ = std::ranges::any_of(model.types, vary);
+}
 
 void SurfaceContacts::look_for_new_surfaces(const World& world) {
   const auto may_be_new = [](const CellType& type) { return type.cycles && type.shells_divide && type.new_surface > 0.0; };
@@ -117,6 +120,10 @@ void SurfaceContacts::carry_found(const World& world, const BodyChanges& changes
 }
 
 void SurfaceContacts::parameters_changed(const World& world) {
+  if (tensions_vary_) {
+    layer_.take_tensions(contact_materials(world.model, world.time));
+    forget();
+  }
   std::vector<SisterBond> bonds;
   if (bonds_age_) bonds = new_interfaces(world.model, world.tissue, world.time);
   if (bonds == layer_.sister_bonds()) return;

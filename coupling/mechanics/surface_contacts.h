@@ -31,7 +31,7 @@ class SurfaceContacts : public Term {
   void bodies_changed(const World& world) override;
   void bodies_replaced(const World& world, const BodyChanges& changes) override;
   void parameters_changed(const World& world) override;
-  [[nodiscard]] bool varies_with_time() const override { return bonds_age_; }
+  [[nodiscard]] bool varies_with_time() const override { return bonds_age_ || tensions_vary_; }
   /// Finds the candidates anew when bodies have gone too far since the last time. Collective.
   void measure(const World& world) override;
   void evaluate(const World& world, Forces& out) override;
@@ -68,7 +68,8 @@ class SurfaceContacts : public Term {
   void evaluate_again(const World& world, bool with_spheres);
 
   int threads_;
-  bool bonds_age_ = true;  ///< interfaces of sisters may be new: adhesion depends on the time
+  bool bonds_age_ = true;       ///< interfaces of sisters may be new: adhesion depends on the time
+  bool tensions_vary_ = false;  ///< of surfaces that adhere by what contact takes of them
   ContactLayer layer_;
   std::vector<std::shared_ptr<const ReferenceShape>> shapes_of_lists_;  ///< of the bodies in the layer's lists: see ContactLayer::reset()
   ContactGradient gradient_;                                            ///< of all contacts of surfaces

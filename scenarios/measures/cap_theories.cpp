@@ -37,8 +37,10 @@ Status youngs_law_fits(const Study& study, const Subject& s, const std::string& 
 }
 
 theory::Cap young(const Study& study, const Subject& s, double time) {
-  const double adhesion = adhesion_of(study, s), tension = tension_at(type_of(study, s), time);
-  return on_obstacle(study, s) ? theory::on_plane(adhesion, tension) : theory::doublet(adhesion, tension);
+  const CellType& type = type_of(study, s);
+  const double adhesion = adhesion_of(study, s), tension = tension_at(type, time);
+  if (on_obstacle(study, s)) return theory::on_plane(adhesion, tension);
+  return theory::doublet(std::max(0.0, adhesion + 2.0 * type.regional_tension.drop_in_contact(type.shell.tension, time)), tension);
 }
 
 double of_cap(const theory::Cap& cap, const std::string& measure) {

@@ -61,6 +61,10 @@ TEST(RegionalTension, IsThatOfTheFirstMarkAndGoesToTheLateralOneWithContact) {
   EXPECT_EQ(t.of_face(0.5, MarkSet(std::array<std::uint8_t, 1>{0b010}), 0.0, 0.0), 0.7);
   t.regions.push_back(region(TensionRegion::kLateral, 0.2));
   EXPECT_DOUBLE_EQ(t.of_face(0.5, MarkSet(std::array<std::uint8_t, 1>{0b001}), 0.25, 0.0), 2.0 + 0.25 * (0.2 - 2.0));
+  EXPECT_EQ(t.drop_in_contact(0.5, 0.0), 0.0) << "faces have it";
+  t.lateral_adheres = true;
+  EXPECT_DOUBLE_EQ(t.drop_in_contact(0.5, 0.0), 0.7 - 0.2);
+  EXPECT_EQ(t.of_face(0.5, MarkSet(std::array<std::uint8_t, 1>{0b001}), 0.25, 0.0), 2.0) << "the drop is an energy of the contact";
 }
 
 TEST(RegionalTension, FollowsItsCourseAndItsModulation) {

@@ -176,14 +176,39 @@ TEST(Regions, TensionBelowHalfOfTheAdhesionIsWarnedOfAndRefusedInAFluid) {
   EXPECT_NE(test::errors_of(fluid).find("E556"), std::string::npos);
 }
 
-TEST(Regions, LateralTensionOfAFluidIsWarnedOfWithTheAdhesionThatDoesTheSame) {
+TEST(Regions, SurfacesOfAFluidAdhereByWhatContactTakesFromTheirTension) {
   const std::string fluid = test::changed("        tension: 0.3 mN/m\n", "        elastic: none\n        tension: 0.3 mN/m\n", kStudy);
   EXPECT_EQ(test::warnings_of(kStudy).find("695"), std::string::npos) << "an elastic cortex";
   const std::string told = test::warnings_of(fluid);
   EXPECT_NE(told.find("differs from that of the free surface by 0.1 mN/m"), std::string::npos) << told;
-  EXPECT_NE(told.find("an adhesion of 0.4 mJ/m^2"), std::string::npos) << told;
+  EXPECT_NE(told.find("no tension or adhesion by marks"), std::string::npos) << told;
   const std::string alike = test::changed("lateral: {tension: 0.2 mN/m}", "lateral: {tension: 0.3 mN/m}", fluid);
   EXPECT_EQ(test::warnings_of(alike).find("695"), std::string::npos);
+
+  const std::string eased = test::changed(
+      "          apical: {tension: 0.5 mN/m, course: [{time: 10 min, factor: 1}, {time: 20 min, factor: 2}], amplitude: 20 %, period: 80 "
+      "s, phase: 90 "
+      "deg}\n",
+      "", fluid);
+  EXPECT_NE(test::errors_of(eased).find("'lateral_easing' has no effect here"), std::string::npos) << "nothing is left to ease";
+  const std::string whole = test::changed("        lateral_easing: 30 s\n", "", eased);
+  EXPECT_EQ(test::warnings_of(whole).find("695"), std::string::npos);
+  const auto study = test::read(whole);
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  const CellType& wall = study->model.types[0];
+  EXPECT_TRUE(wall.regional_tension.lateral_adheres);
+  EXPECT_NEAR(wall.regional_tension.drop_in_contact(wall.shell.tension, 0.0), 0.4 - 0.2, 1e-12) << "of `whole`";
+  const std::string tense = test::changed("lateral: {tension: 0.2 mN/m}", "lateral: {tension: 0.5 mN/m}", whole);
+  EXPECT_NE(test::warnings_of(tense).find("do not stick to each other"), std::string::npos);
+}
+
+TEST(Regions, MarksAndCavitiesThatAreNoneAreRefused) {
+  const std::string box = "cone: {toward: [0 um, 0 um, 0 um], angle: 60 deg}";
+  EXPECT_NE(errors(box, "box: {center: [0 um, 0 um, 6 um], size: [-20 um, 20 um, 20 um]}").find("E302"), std::string::npos);
+  EXPECT_TRUE(test::read(test::changed(box, "box: {center: [0 um, 0 um, 6 um], size: [20 um, 20 um, 20 um]}", kStudy)).ok());
+  const std::string within = errors("gap: {center: [0 um, 0 um, 0 um], pressure: 20 Pa, solute: kept, from: 5 min,",
+                                    "gap: {center: [19 um, 1 um, 0 um], pressure: 20 Pa, solute: kept,");
+  EXPECT_NE(within.find("the centre of the cavity 'gap' lies in a cell"), std::string::npos) << within;
 }
 
 TEST(Regions, TurnoverIsFollowedInTenStepsATime) {
