@@ -8,7 +8,7 @@ namespace morula::app {
 
 Result<std::string> estimate_text(const scenarios::Study& study, int ranks) {
   MORULA_TRY_ASSIGN(const scenarios::Estimate estimate, scenarios::estimate(study));
-  std::string out = "  cells   " + std::to_string(estimate.cells) + " at the start (" +
+  std::string out = "  cells   " + std::to_string(estimate.cells) + " at the start (" + (study.model.swaps.any() ? "up to " : "") +
                     count_words(static_cast<std::uint64_t>(estimate.shells), "shell", "shells") + ")";
   if (estimate.cells_at_end > static_cast<double>(estimate.cells))
     out += ", about " + number_text(estimate.cells_at_end < 1e7 ? "%.0f" : "%.3g", estimate.cells_at_end) + " at " +

@@ -35,6 +35,7 @@ void RunDisplay::listen_to(scenarios::RunRequest& request) {
   request.on_start = [this](const std::filesystem::path& run) { start(run); };
   request.on_progress = [this](const scenarios::Progress& now) { progress(now); };
   request.on_note = [this](const scenarios::Note& text) { note(text); };
+  if (request.until) until_ = " --until " + number_text("%.15g", *request.until) + "s";
 }
 
 void RunDisplay::start(const std::filesystem::path& run) { console_.message(first_line_ + " · " + run.string() + "\n"); }
@@ -75,7 +76,7 @@ void RunDisplay::end(const scenarios::RunSummary& summary) {
   const std::string where = scenarios::time_text(state.time) + " in " + scenarios::duration_text(summary.wall_time) + " · " +
                             count_words(state.cells, "cell", "cells");
   if (summary.stopped) {
-    console_.message("stopped at " + where + ", with a checkpoint\n  go on with `morula resume " + summary.path.string() + "`\n");
+    console_.message("stopped at " + where + ", with a checkpoint\n  go on with `morula resume " + summary.path.string() + until_ + "`\n");
   } else {
     std::string line = "done   " + where;
     if (!summary.verdicts.empty()) line += summary.passed ? " · checks passed" : " · checks FAILED";

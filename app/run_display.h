@@ -29,7 +29,8 @@ class RunDisplay {
 
   const Console& console_;
   std::string first_line_;
-  std::string live_;  ///< what stands on the terminal's line now
+  std::string until_;  ///< of the command, as an option of the next one; empty: to the end of the study
+  std::string live_;   ///< what stands on the terminal's line now
   std::chrono::steady_clock::time_point drawn_{};
   scenarios::PlainPace pace_;
 };

@@ -116,6 +116,7 @@ std::vector<Event> Simulation::swap_bodies() {
 }
 
 Result<std::vector<Event>> Simulation::first_swaps() {
+  mechanics_->attach(tissue_);  // rules look at what cells touch
   std::vector<Event> events = swap_bodies();
   OptionalColumn<double>& last_swap = tissue_.cells.optional.last_swap_time;
   for (std::size_t i = 0; i < tissue_.cells.size(); ++i)

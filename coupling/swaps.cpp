@@ -54,6 +54,7 @@ Wish wish(const Model& model, const CellView& cell, std::size_t i, const SwapBod
       if (cell.phase_name() == trigger.phase) return {BodyKind::kShell, trigger.hold, reason};
       continue;
     }
+    if (trigger.value->looks_at_body && bodies.values == nullptr) continue;  // nothing is known of bodies before a run
     const double value = trigger.value->of(trigger, cell);
     const double threshold = shell ? trigger.demote : trigger.promote;
     const bool wants = trigger.promote_above ? value > threshold : value < threshold;

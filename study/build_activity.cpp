@@ -24,14 +24,18 @@ int find_substrate(BuildContext& c, const Given<std::string>& name) {
   return -1;
 }
 
-void build_protrusion(BuildContext& c, const std::string& name, const Place& place, const draft::Activity& a, CellType& type) {
+void build_protrusion(BuildContext& c, std::size_t number, const Place& place, const draft::Activity& a, CellType& type) {
   if (!a.has_protrusion) return;
+  const std::string& name = c.draft.cell_types[number].name;
   a.protrusion.write_to(type.protrusion);
   type.protrusion.internal = a.reaction.value == "cell";
   type.protrusion.contact_area = a.contact_area.value;
   if (a.substrate.given) type.protrusion.substrate = find_substrate(c, a.substrate);
   if (!a.has_polarity)
     c.diagnostics.error(558, place, "cells of '" + name + "' protrude along their polarity, and have none", "give the type a `polarity`");
+  if (type.protrusion.internal && !may_be_shell(c, number))
+    c.diagnostics.error(515, a.reaction.place, "a protrusion of '" + name + "' with `reaction: cell` has no effect",
+                        "a sphere bears both forces in one point: `reaction: substrate`, or `body: shell`");
   if (a.contact_area.value > 0.0 && !a.substrate.given)
     c.diagnostics.error(515, a.contact_area.place, "'contact_area' has no effect without a substrate", "give `substrate`");
 }
@@ -80,7 +84,7 @@ void build_activity(BuildContext& c) {
       if (a.resolve.value > 0.0) c.study.model.step.max_step = std::min(c.study.model.step.max_step, type.fluctuations.longest_step());
     }
     build_polarity(c, t, type);
-    build_protrusion(c, name, place, a, type);
+    build_protrusion(c, i, place, a, type);
     if (type.protrusion.force > 0.0) c.study.model.step.max_step = std::min(c.study.model.step.max_step, type.polarity.longest_step());
     build_migration(c, t, type);
     set_friction(t, type);

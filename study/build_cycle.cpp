@@ -154,6 +154,14 @@ void build_cycle(BuildContext& c, const draft::CellType& t, const Place& place, 
   if (type.cycles && type.cycle.phases.empty() && !type.cycle.growth->grows)
     c.diagnostics.error(700, t.growth.place, "cells of '" + type.name + "' never reach their division volume: they do not grow",
                         "`model: phases` for cells that divide by the clock, or another `growth`");
+  const bool grows = type.cycle.growth->grows;
+  if (type.cycles && !grows && !t.cycle.arrest.empty() && t.cycle.has_arrest)
+    c.diagnostics.warning(515, t.growth.place,
+                          "'arrest' has no effect here: it holds growth back, and cells of '" + type.name + "' do not grow",
+                          "`arrest` of a phase holds that back");
+  if (type.cycles && !grows && is_changed(t.cycle.ratio, "2"))
+    c.diagnostics.warning(515, t.cycle.ratio.place, "'ratio' has no effect here: cells of '" + type.name + "' do not grow",
+                          "leave it away");
   if (!paced_by_phases(type.cycle)) return;
   if (is_changed(t.cycle_duration.mean, "24 h"))
     c.diagnostics.error(515, t.cycle_duration.mean.place, "'duration' has no effect here", "the phases say how long the cycle is");

@@ -342,9 +342,15 @@ class InitialBuilder {
   /// Spheres of the type's radius need more room than the shape has.
   void check_room(const draft::Initial& d, int type, const InitialCells& cells, bool sphere) {
     const Given<double>& radius = c_.draft.cell_types[static_cast<std::size_t>(type)].content.radius.mean;
-    if (!radius.known() || !d.start_volume.known() || !cells.mixture.empty()) return;
+    if (!radius.known() || !d.start_volume.known()) return;
     const double ball = 4.0 / 3.0 * std::numbers::pi;
-    const double need = static_cast<double>(cells.count) * ball * std::pow(radius.value, 3) * cells.start_volume_fraction;
+    double cube = cells.mixture.empty() ? std::pow(radius.value, 3) : 0.0;  // mean of the third powers of the radii [um^3]
+    for (const InitialCells::Share& share : cells.mixture) {
+      const Given<double>& of_type = c_.draft.cell_types[share.type].content.radius.mean;
+      if (!of_type.known()) return;
+      cube += share.part * std::pow(of_type.value, 3);
+    }
+    const double need = static_cast<double>(cells.count) * ball * cube * cells.start_volume_fraction;
     const double room = sphere ? ball * std::pow(cells.radius, 3) : cells.size.x * cells.size.y * cells.size.z;
     const bool random = cells.pattern == FillPattern::kRandom;
     const double most = 0.64;  // balls at random, shaken together (random close packing)
@@ -352,8 +358,10 @@ class InitialBuilder {
     const std::string fits = sphere ? "a radius of at least " + short_number(std::ceil(std::cbrt(need / most / ball))) + " um"
                                     : "a volume of at least " + short_number(need / most) + " um^3";
     c_.diagnostics.error(506, d.count.place,
-                         std::to_string(cells.count) + " cells of radius " + radius.text + " have " + short_number(need / room) +
-                             " times the volume of the shape they fill" + (random ? std::string(": at random they fill 0.64 of it") : ""),
+                         std::to_string(cells.count) + " cells " +
+                             (cells.mixture.empty() ? "of radius " + radius.text + " " : "of these types ") + "have " +
+                             short_number(need / room) + " times the volume of the shape they fill" +
+                             (random ? std::string(": at random they fill 0.64 of it") : ""),
                          "give the shape " + fits + ", or fewer cells");
   }
 

@@ -144,7 +144,8 @@ void check_rest_of_bodies(BuildContext& c) {
     if (!type.sphere.law->of_small_contacts || has_fitted_law(c, i) || !may_be_sphere(c, i) || !may_be_shell(c, i)) continue;
     const double adhesion = model.pair(i, i).adhesion;
     const double spheres = 2.0 * cbm::resting_contact(type.sphere, type.radius.mean, type.sphere, type.radius.mean, adhesion).overlap_ratio;
-    const double shells = dcm::overlap_of_doublet(adhesion, type.shell.tension);
+    const double drop = type.regional_tension.drop_in_contact(type.shell.tension, 0.0);
+    const double shells = dcm::overlap_of_doublet(std::max(0.0, adhesion + 2.0 * drop), type.shell.tension);
     if (!(type.shell.tension > 0.0) || std::abs(shells - spheres) <= kMuch) continue;
     const auto& [name, place, t] = c.draft.cell_types[i];
     c.diagnostics.warning(
@@ -153,6 +154,19 @@ void check_rest_of_bodies(BuildContext& c) {
             " R apart, and two drops of the tension and adhesion of its shells " + number_text("%.2f", 2.0 - shells) +
             " R: where a cell changes its body, its neighbours move",
         "`morula calibrate jkr " + name + " STUDY` finds a law of spheres that rest like its shells (`cbm: {law: fitted}`)");
+  }
+}
+
+/// A shell under pressure keeps its water; what presses a sphere takes it as if water could leave.
+void check_water_of_bodies(BuildContext& c) {
+  for (std::size_t i = 0; i < c.study.model.types.size(); ++i) {
+    if (!c.study.model.types[i].osmosis.acts() || !may_be_sphere(c, i) || !may_be_shell(c, i)) continue;
+    const auto& [name, place, t] = c.draft.cell_types[i];
+    c.diagnostics.warning(704, place,
+                          "shells of '" + name +
+                              "' hold their water against what presses them, up to tens of kPa; spheres give way by their `bulk_modulus`, "
+                              "as if it left: among cells that fill their room the two have different pressures and volumes",
+                          "one body for all cells of this type where they press each other, or no `osmosis`");
   }
 }
 
@@ -183,6 +197,7 @@ void check_bodies(BuildContext& c) {
   check_sheets_of_divisions(c);
   check_jkr_range(c);
   check_rest_of_bodies(c);
+  check_water_of_bodies(c);
   check_ways_of_spheres(c);
 }
 

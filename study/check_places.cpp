@@ -1,6 +1,7 @@
 #include "cbm/laws/sphere_caps.h"
 #include "core/contact/broad_phase.h"
 #include "core/numbers/number_text.h"
+#include "coupling/cell_variables.h"
 #include "coupling/swaps.h"
 #include "study/build.h"
 #include "study/initial/judge_places.h"
@@ -48,6 +49,8 @@ void tell_room(BuildContext& c, const std::vector<PlacedCell>& placed) {
   for (const PlacedCell& cell : placed) {
     tissue.cells.push_back(cell.row);
     center.push_back(cell.center), radius.push_back(cell.radius());
+    for (std::size_t f = 0; f < c.study.model.fields.size(); ++f)
+      tissue.cells.variables[concentration_of(f)].values.set(tissue.cells.size() - 1, c.study.model.fields[f].initial);
   }
   const std::vector<SwapOrder> orders = choose_swaps(c.study.model, tissue, {.center = center}, Comm());
   const std::vector<double> caps = caps_of_balls(center, radius, c.study.model.space);
@@ -61,6 +64,22 @@ void tell_room(BuildContext& c, const std::vector<PlacedCell>& placed) {
     c.study.notes.push_back(std::to_string(count) + (count == 1 ? " cell becomes a shell" : " cells become shells") +
                             " before the first step: as shells they take " + number_text("%.3g um^3", room) + " (" +
                             number_text("%.2g %%", 100.0 * room / volume) + " of their volume) more room than as spheres, which overlap");
+}
+
+/// A cavity is looked into from its centre: from within a cell nothing else is seen.
+void check_cavities(BuildContext& c, const std::vector<PlacedCell>& placed) {
+  for (std::size_t k = 0; k < c.study.model.lumens.size(); ++k) {
+    const Lumen& lumen = c.study.model.lumens[k];
+    const auto& [name, place, d] = c.draft.lumens[k];
+    if (!lumen.by_sight || lumen.from > 0.0) continue;  // later cells lie elsewhere
+    const Space& space = c.study.model.space;
+    const auto covers = [&](const PlacedCell& cell) { return norm(space.nearest_image(cell.center - lumen.center)) < cell.radius(); };
+    const auto cell = std::ranges::find_if(placed, covers);
+    if (cell == placed.end()) continue;
+    c.diagnostics.error(557, d.center.place,
+                        "the centre of the cavity '" + name + "' lies in a cell, from which nothing of a cavity is seen",
+                        "a point between the cells, or `from` a time at which one is there");
+  }
 }
 
 }  // namespace
@@ -85,6 +104,7 @@ void check_places(BuildContext& c) {
   if (!judged.ok()) return failed(judged.error());
   for (const PlaceProblem& problem : judged->problems) tell(c, problem);
   tell_room(c, placed->cells);
+  check_cavities(c, placed->cells);
   for (std::vector<std::string>* notes : {&placed->notes, &judged->notes})
     c.study.notes.insert(c.study.notes.end(), notes->begin(), notes->end());
 }

@@ -73,7 +73,8 @@ void declare_region(Section& s, draft::Region& r) {
               .source = "chosen"},
              r.from);
   s.quantity({.name = "until",
-              .doc = "The region ends at this time; cells inside then become what their type says.",
+              .doc = "The region ends at this time; cells inside then become what they were without it: what `as` of `initial` says, or "
+                     "else their type.",
               .quantity = Q::kTime,
               .fallback = "never",
               .low = 0.0,

@@ -269,7 +269,8 @@ void declare_initial(Section& s, draft::Initial& i) {
               .source = "chosen"},
              i.inflate);
   s.word({.name = "shape",
-          .doc = "Stress-free shape of shells: a sphere, or the biconcave disc of a red blood cell, its axis along z.",
+          .doc = "Stress-free shape of shells: a sphere, or the biconcave disc of a red blood cell, its axis along z with `orientation: "
+                 "aligned`.",
           .fallback = "sphere",
           .words = {"sphere", "biconcave"},
           .example = "biconcave",

@@ -173,7 +173,8 @@ void declare_interior(Section& s, draft::CellType& t) {
 void declare_osmosis(Section& s, draft::CellType& t) {
   s.group({.name = "osmosis",
            .doc = "Water flows through the cell's membrane until solutes and pressure are in balance; without it the volume a free cell "
-                  "tends to is its target volume.",
+                  "tends to is its target volume. Shells hold their water against what presses them; spheres give way by `bulk_modulus` as "
+                  "if it left.",
            .optional_section = true,
            .example = "{outside: 150 mM}"},
           t.osmosis.present, [&t](Section& o) { declare_osmosis_keys(o, t.osmosis); });

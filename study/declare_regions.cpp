@@ -72,17 +72,24 @@ void declare_tension_regions(Section& s, draft::CellType& t) {
   s.named(
       {.name = "regions",
        .doc = "Tension by part of the surface: names of `marks`, `lateral` (what is in contact with other cells) or `whole`. Of the marks "
-              "that a face carries the first listed here holds; contact goes from that tension to the lateral one."},
+              "that a face carries the first listed here holds; contact goes from that tension to the lateral one. In a cortex that is not "
+              "elastic "
+              "and has no marks here, surfaces adhere by the difference: cos of the contact angle is (lateral - W/2)/tension. An elastic "
+              "cortex bears it, and its angle "
+              "hardly changes."},
       t.tension_regions, &declare_tension_region);
-  s.quantity({.name = "lateral_easing",
-              .doc = "Time in which a face that comes into contact takes the `lateral` tension (and gives it up again).",
-              .quantity = Q::kTime,
-              .fallback = "60 s",
-              .low = 0.0,
-              .low_open = true,
-              .example = "60 s",
-              .source = "chosen: cortical turnover takes about a minute"},
-             t.lateral_easing);
+  s.quantity(
+      {.name = "lateral_easing",
+       .doc =
+           "Time in which a face that comes into contact takes the `lateral` tension (and gives it up again). Where surfaces adhere by the "
+           "difference they do so at once.",
+       .quantity = Q::kTime,
+       .fallback = "60 s",
+       .low = 0.0,
+       .low_open = true,
+       .example = "60 s",
+       .source = "chosen: cortical turnover takes about a minute"},
+      t.lateral_easing);
 }
 
 void declare_mark(Section& s, draft::Mark& m) {
@@ -151,7 +158,13 @@ void declare_mark(Section& s, draft::Mark& m) {
            .example = "{center: [0 um, 0 um, 0 um], size: [20 um, 20 um, 5 um]}"},
           m.box, [&m](Section& b) {
             center_key(b, m.box_center, "Centre of the box.");
-            b.vector({.name = "size", .doc = "Edges.", .quantity = Q::kLength, .required = true, .example = "[20 um, 20 um, 5 um]"},
+            b.vector({.name = "size",
+                      .doc = "Edges.",
+                      .quantity = Q::kLength,
+                      .required = true,
+                      .low = 0.0,
+                      .low_open = true,
+                      .example = "[20 um, 20 um, 5 um]"},
                      m.box_size);
           });
   s.group({.name = "touched_by",
@@ -245,7 +258,7 @@ void declare_apical_spring(Section& s, draft::ApicalSpring& a) {
               .example = "10 Pa/um"},
              a.plain, &ApicalSpring::stiffness);
   s.quantity({.name = "friction",
-              .doc = "mu per marked area: friction against the laboratory.",
+              .doc = "mu per marked area: friction of marked faces against the common translation, rotation and growth of all of them.",
               .quantity = Q::kFrictionPerArea,
               .fallback = "0 N s/m^3",
               .low = 0.0,

@@ -92,7 +92,8 @@ constexpr ErrorCode kCodes[] = {
     {517, "surfaces that sink into each other",
      "The repulsion is so soft that the pressure within the cells pushes their surfaces through each other (warning)."},
     {518, "box that cannot change its size",
-     "A box that is periodic along x, y and z can follow a course, with nothing in it but cells: fields and obstacles keep their places. "
+     "A box that is periodic along x, y and z can follow a course, with nothing in it but cells: fields and obstacles keep their "
+     "places. "
      "The "
      "course begins with the box of `size`, volume 1."},
     {520, "load that cells cannot bear",
@@ -269,11 +270,11 @@ constexpr ErrorCode kCodes[] = {
      "begins "
      "when the run has ended."},
     {695, "tension in contact of a fluid cortex",
-     "A fluid bears no difference of tension along its surface. Where faces in contact have a tension of their own, it is the resistance "
-     "of triangles "
-     "to distortion that bears the difference, and contact angles lie 2 to 6 degrees beside Young's law. The same angle comes of adhesion: "
-     "W + 2 "
-     "(γ − γ_lateral) in place of W."},
+     "A fluid bears no difference of tension along its surface: surfaces adhere by what contact takes from their tension, W + 2 (γ − "
+     "γ_lateral) in place of W, "
+     "and those for which that is negative do not stick. Where tensions or adhesion differ by marks beside it, faces in contact have a "
+     "tension of their own; "
+     "the resistance of triangles to distortion bears the difference, and contact angles lie 2 to 6 degrees beside Young's law."},
     {696, "elastic law whose range divisions leave",
      "Faces beside a new interface are stretched by a fifth and more. A law that holds for small stretches only ends the run there."},
     {697, "obstacle at a periodic face",
@@ -297,6 +298,13 @@ constexpr ErrorCode kCodes[] = {
      "The phase that ends when the cell has its division volume is the last one in which cells grow. Sizer and adder need such a phase."},
     {703, "no way into quiescence",
      "`quiescence` names a phase of the cycle, and that phase needs an `arrest`, whose factor takes cells out and back."},
+    {704, "water of two bodies",
+     "Water flows by the volume that a body has. That of a shell is its mesh, which neighbours compress; that of a sphere is its free "
+     "ball, and what pressure leaves of it follows from the bulk "
+     "modulus alone. Free cells swell and shrink alike; under pressure only shells hold their water (warning)."},
+    {705, "noise that folds a mesh",
+     "Fluctuations move a node by about the square root of their energy over the tension. Beyond half of an edge the mesh folds, and no "
+     "step is found."},
 };
 
 }  // namespace

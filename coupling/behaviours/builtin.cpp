@@ -78,6 +78,19 @@ LawInfo division_law() {
                           "Time over which the overlap of two sisters is released; fixed."}}};
 }
 
+LawInfo cut_law() {
+  const CellType type;
+  return {.name = "shell_division",
+          .title = "Division of a shell by a cut",
+          .equation =
+              "V_1 + V_2 = V_m by a plane across the axis, closed with the same cap on both sides; there sisters adhere by W + n (γ_1 + "
+              "γ_2 − W), "
+              "n = 1 − t/τ",
+          .source = kOurs,
+          .parameters = {{"new_surface", "time", "s", type.new_surface, 0.0, 1e6, kOurs,
+                          "τ in which the new interface takes its tension; 0: at once."}}};
+}
+
 LawInfo dying_law() {
   const CellType type;
   return {.name = "apoptosis",
@@ -116,6 +129,7 @@ std::vector<LawInfo> behaviour_laws() {
           phases_law(),
           quiescence_law(),
           division_law(),
+          cut_law(),
           dying_law(),
           osmosis_law()};
 }

@@ -163,8 +163,11 @@ LifeReport live(Cells& cells, std::span<const CellType> types, const LifeStep& s
     if (!step.sensed.empty()) values.sensed = step.sensed[static_cast<std::size_t>(k)];
     const Asked asked = rows[k].phase == Phase::kDying ? Asked{} : behaviours.ask(k);
     const auto rate = [&behaviours, k](std::size_t phase) { return behaviours.phase_rate(k, phase); };
+    const double to_come = rows[k].phase == Phase::kDying ? 0.0 : optional.inflation_left[k];  // growth knows the cell as it will be
+    cells.rows[k].target_volume += to_come;
     decisions[k] =
         in_phases ? live(cells.rows[k], values, type, step, asked.wish, rate) : live(cells.rows[k], values, type, step, asked.wish);
+    cells.rows[k].target_volume -= to_come;
     if (in_phases) put_place(values.place, first, k, cells);
     if (decisions[k].kind == Kind::kBeginDying) decisions[k].behaviour = asked.deadly;
     optional.migration_velocity.set(k, values.migration_velocity);

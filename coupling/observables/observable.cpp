@@ -76,7 +76,11 @@ std::vector<Observable> observables_of_any_model(const Laws& laws) {
   model.loads.emplace_back().name = "<grip>";
   model.loads[0].what = grip_load();
   model.fields.emplace_back().name = "<field>";
-  return observables(model, laws);
+  std::vector<Observable> out = observables(model, laws);
+  model.space.boundary = {};  // some columns are of domains with faces only
+  for (Observable& one : observables(model, laws))
+    if (std::ranges::none_of(out, [&](const Observable& other) { return other.name == one.name; })) out.push_back(std::move(one));
+  return out;
 }
 
 }  // namespace morula

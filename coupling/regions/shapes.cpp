@@ -90,7 +90,9 @@ std::shared_ptr<const RegionShape> everything_region() {
   static const auto shape = std::make_shared<const RegionShape>(RegionShape{
       .info = {.name = "everything", .title = "Region that is all there is", .equation = "always", .source = kOurs, .parameters = {}},
       .has_center = false,
-      .distance = [](const Region&, const Vec3d&) { return -1e300; }});
+      .of_cell = [](const Region&, const CellView&) {
+        return Standing{-1e300, 0.0};
+      }});
   return shape;
 }
 

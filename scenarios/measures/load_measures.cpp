@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/mesh/triangle_tree.h"
+#include "core/space/images.h"
 #include "scenarios/measures/measures.h"
 
 namespace morula::scenarios {
@@ -16,6 +17,18 @@ std::vector<std::string> force_columns(const Study& study, const Subject& subjec
   const CellLoad& load = load_of(study, subject);
   if (load.what != grip_load()) return {};
   return {"grip_x_" + load.name, "grip_y_" + load.name, "grip_z_" + load.name};
+}
+
+/// Of a patch of marked faces: none while no face has the mark.
+Result<std::vector<Sample>> force_on_marked(FinishedRun& run, const CellLoad& load, const Moments& moments) {
+  MORULA_TRY_ASSIGN(const std::vector<double>* const times, run.snapshot_times());
+  std::vector<Sample> out;
+  for (const std::size_t at : moments.among(*times)) {
+    MORULA_TRY_ASSIGN(const auto snapshot, run.snapshot(at));
+    const bool borne = !snapshot->face_marks.empty() && snapshot->marks().any_has(load.mark);
+    out.push_back({snapshot->time, borne ? norm(load.force) * load.course.at(snapshot->time) : 0.0, ""});
+  }
+  return out;
 }
 
 }  // namespace
@@ -37,7 +50,8 @@ Measure load_way_measure() {
 Measure load_force_measure() {
   Measure out{"force",
               "force",
-              "Force of a load on its cells: of a grip along its direction, of a pull at each end, of a patch or body force its size.",
+              "Force of a load on its cells: of a grip along its direction, of a pull at each end, of a patch or body force its size; of a "
+              "patch of marked faces 0 while no face has the mark.",
               "",
               "",
               Quantity::kForce,
@@ -48,8 +62,9 @@ Measure load_force_measure() {
     return Error{ErrorKind::kInput, "needs a grip, a pull, a patch or a body force", ""};
   };
   out.columns = &force_columns;
-  out.take = [](FinishedRun& run, const Subject& subject, const Moments& moments) {
+  out.take = [](FinishedRun& run, const Subject& subject, const Moments& moments) -> Result<std::vector<Sample>> {
     const CellLoad& load = load_of(run.study(), subject);
+    if (load.what == patch_load() && load.mark >= 0) return force_on_marked(run, load, moments);
     return by_row(run, force_columns(run.study(), subject), moments, [&load](double time, const std::vector<double>& row) {
       if (load.what == grip_load()) return dot(Vec3d{row[0], row[1], row[2]}, load.direction);
       return (load.what == pull_load() ? load.size : norm(load.force)) * load.course.at(time);
@@ -83,17 +98,12 @@ Measure nearest_sphere_measure() {
     const Vec3d way = obstacle.way(0.0, snapshot.time);
     double nearest2 = kFar2;
     const Space& space = study.model.space;
-    const Vec3d edges = space.box.size();
-    const auto images = [&](int axis) { return space.periodic(axis) ? 1 : 0; };
     for (const Snapshot::Cell& cell : snapshot.cells) {
       if (cell.body != BodyKind::kSphere) continue;
       const Vec3d place = space.wrapped(cell.centroid - way);  // the obstacle may have gone round the domain
-      for (int x = -images(0); x <= images(0); ++x)
-        for (int y = -images(1); y <= images(1); ++y)
-          for (int z = -images(2); z <= images(2); ++z) {
-            const auto found = surface.nearest(place + Vec3d{x * edges.x, y * edges.y, z * edges.z}, std::sqrt(nearest2));
-            if (found) nearest2 = std::min(nearest2, found->closest.distance2);
-          }
+      for_boxes_around(space, [&](const Vec3d& shift) {
+        if (const auto found = surface.nearest(place + shift, std::sqrt(nearest2))) nearest2 = std::min(nearest2, found->closest.distance2);
+      });
     }
     return nearest2 < kFar2 ? std::optional(std::sqrt(nearest2)) : std::nullopt;
   });

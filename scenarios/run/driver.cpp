@@ -113,7 +113,7 @@ Status is_before(double time, double wanted, const char* key) {
 }
 
 /// What a checkpoint knows by number must have the same numbers in the study that goes on from it; and what lies on a grid must keep the grid.
-Status can_go_on(const Study& parent, const Study& study, double time, const std::optional<double>& until) {
+Status can_go_on(const Study& parent, const Study& study) {
   const auto differs = [](const std::string& what) {
     return Error{ErrorKind::kInput,
                  "the run that goes on has other " + what + " than the one that it goes on from, or has them in another order",
@@ -125,6 +125,13 @@ Status can_go_on(const Study& parent, const Study& study, double time, const std
   };
   const Model &was = parent.model, &is = study.model;
   if (!begins_alike(was.types, is.types)) return differs("cell types");
+  for (std::size_t t = 0; t < was.types.size(); ++t) {
+    const CellType &before = was.types[t], &now = is.types[t];
+    const auto same_name = [](const CyclePhase& a, const CyclePhase& b) { return a.name == b.name; };
+    if (!std::ranges::equal(before.cycle.phases, now.cycle.phases, same_name))
+      return differs("phases of the cycle of '" + before.name + "'");
+    if (before.shell_nodes != now.shell_nodes) return differs("nodes of the shells of '" + before.name + "'");
+  }
   if (!begins_alike(was.obstacles, is.obstacles)) return differs("obstacles");
   if (!begins_alike(was.lumens, is.lumens)) return differs("lumens");
   if (!begins_alike(was.fields, is.fields)) return differs("fields");
@@ -133,7 +140,7 @@ Status can_go_on(const Study& parent, const Study& study, double time, const std
   const Box &a = was.space.box, &b = is.space.box;
   if (!was.fields.empty() && (norm2(a.low - b.low) > 0.0 || norm2(a.high - b.high) > 0.0))
     return differs("bounds of the domain, in which fields lie,");
-  return until ? is_before(time, *until, "--until") : is_before(time, study.time.end, "`time.end`");
+  return {};
 }
 
 /// Whether the checkpoint is of the study in this folder; `otherwise` if not.
@@ -206,11 +213,12 @@ Result<RunSummary> resume(const std::filesystem::path& run, const ResumeRequest&
 Result<RunSummary> branch(const std::filesystem::path& parent, const Study& study, const ResumeRequest& request, const Comm& comm) {
   MORULA_TRY_ASSIGN(const RunFolder from, RunFolder::open(parent, comm));
   MORULA_TRY_ASSIGN(auto columns, columns_of(study));
-  MORULA_TRY_ASSIGN(Restored restored, restore(from, request, study, comm));
-  const double time = restored.checkpoint.tissue.clock.time;
   auto parent_study = read_run_study(from.path(), request.laws);
   MORULA_TRY(agree(parent_study.ok() ? Status{} : Status(parent_study.error()), comm));
-  MORULA_TRY(agree(can_go_on(*parent_study, study, time, request.until), comm));
+  MORULA_TRY(agree(can_go_on(*parent_study, study), comm));
+  MORULA_TRY_ASSIGN(Restored restored, restore(from, request, study, comm));
+  const double time = restored.checkpoint.tissue.clock.time;
+  MORULA_TRY(agree(request.until ? is_before(time, *request.until, "--until") : is_before(time, study.time.end, "`time.end`"), comm));
   MORULA_TRY(is_of_run(from, restored,
                        {ErrorKind::kInput, "the checkpoint belongs to another run than '" + from.path().string() + "'",
                         "give `--from` a checkpoint of that run"}));

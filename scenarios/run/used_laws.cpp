@@ -186,7 +186,7 @@ void add_variation(const CellType& type, std::vector<UsedLaw>& out) {
   for (const Trait trait : kTraits) add(kTraitNames[number_of(trait)], type.traits.of(trait));
 }
 
-void add_behaviours(const CellType& type, std::vector<UsedLaw>& out) {
+void add_behaviours(const CellType& type, const Bodies& bodies, std::vector<UsedLaw>& out) {
   add_variation(type, out);
   if (type.cycles) {
     const CellCycle& cycle = type.cycle;
@@ -196,6 +196,7 @@ void add_behaviours(const CellType& type, std::vector<UsedLaw>& out) {
     add_cycle(type, out);
   }
   const Values values{{"inhibit_pressure", type.inhibit_pressure},
+                      {"new_surface", type.new_surface},
                       {"apoptosis_time", type.apoptosis_time},
                       {"removal_fraction", type.removal_fraction},
                       {"permeability", type.osmosis.permeability},
@@ -204,7 +205,8 @@ void add_behaviours(const CellType& type, std::vector<UsedLaw>& out) {
                       {"outside", type.osmosis.outside}};
   for (LawInfo& law : behaviour_laws()) {
     const bool used = law.name == "growth_under_pressure" ? type.cycles && type.inhibit_pressure < kNever
-                      : law.name == "instant_division"    ? type.cycles
+                      : law.name == "instant_division"    ? type.cycles && bodies.sphere
+                      : law.name == "shell_division"      ? type.cycles && bodies.shell && type.shells_divide
                       : law.name == "apoptosis"           ? !type.behaviours.empty()
                       : law.name == "osmosis"             ? type.osmosis.acts()
                                                           : false;
@@ -278,7 +280,7 @@ std::vector<UsedLaw> used_laws(const Study& study) {
     add_interior_laws(type, out);
   }
   add_contacts(model, bodies, out);
-  for (const CellType& type : model.types) add_behaviours(type, out);
+  for (std::size_t t = 0; t < model.types.size(); ++t) add_behaviours(model.types[t], bodies[t], out);
   add_fields(model, out);
   add_loads(model, out);
   add_swaps(model.swaps, out);

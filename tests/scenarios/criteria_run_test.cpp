@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -240,6 +241,35 @@ TEST_F(OwnCriteria, PlotsStandInTheReportAndBesideIt) {
   for (const char* words : {"Under the lid", "Laplace", "a count", "criteria passed"}) EXPECT_THAT(report, HasSubstr(words));
   for (const char* name : {"volumes.svg", "volumes.csv", "lid.svg", "pressures.svg", "counted.svg"})
     EXPECT_TRUE(std::filesystem::exists(folder_.path() / "run/plots" / name)) << name;
+}
+
+/// A patch of marked faces has no force while no face has the mark.
+TEST(OwnMeasures, ForceOfAPatchIsThatWhichFacesBear) {
+  const test::Folder folder;
+  const auto force = [&](const char* size, const char* name) {
+    const auto study = test::read(std::string(R"(schema: 1
+study: patch
+time: {end: 2 min, output: 1 min}
+domain: {size: [60 um, 60 um, 60 um]}
+cell_types: {a: {radius: 6 um, body: shell}}
+marks: {m: {types: [a], box: {center: [0 um, 0 um, 6 um], size: )") +
+                                  size + R"(}}}
+loads: {l: {type: a, patch: {force: [0 nN, 0 nN, 1 nN], marked: m}}}
+initial: [{type: a, at: [0 um, 0 um, 0 um]}]
+output: {report: false}
+criteria: [{id: F, measure: force, of: {load: l}, at: end, above: 0 nN}]
+)");
+    EXPECT_TRUE(study.ok()) << study.error().text();
+    RunRequest request;
+    request.out = folder.path() / name;
+    const auto done = run(*study, request, Comm());
+    EXPECT_TRUE(done.ok());
+    if (!done.ok()) return std::nan("");
+    const auto verdict = std::ranges::find(done->verdicts, std::string("F"), &Verdict::id);
+    return verdict != done->verdicts.end() ? verdict->value : std::nan("");
+  };
+  EXPECT_EQ(force("[20 um, 20 um, 20 um]", "faces"), 1.0);
+  EXPECT_EQ(force("[0.001 um, 0.001 um, 0.001 um]", "none"), 0.0);
 }
 
 }  // namespace

@@ -58,5 +58,29 @@ TEST_F(CycleRun, HasTheSameBitsOnTwoThreadsAndAfterARestart) {
     EXPECT_THAT(methods, HasSubstr(law));
 }
 
+/// A cell that inflates at the start divides when its cycle says, whatever its law of growth.
+TEST_F(CycleRun, LastsAsLongWhileACellInflates) {
+  for (const std::string& growth : {std::string("linear"), std::string("exponential"), std::string("logistic, limit: 3"),
+                                    std::string("relaxing, limit: 1.1"), std::string("exponential, model: phases")}) {
+    const std::string name = growth.substr(0, growth.find(',')) + std::to_string(growth.size());
+    run_whole(R"(schema: 1
+study: inflated
+time: {end: 2.2 h, output: 1 min, step: 10 s}
+domain: {size: [100 um, 100 um, 100 um]}
+cell_types:
+  a: {cycle: {duration: 2 h, growth: )" +
+                  growth + R"(}, inhibit_growth: {pressure_above: never}}
+initial:
+  - {type: a, at: [[0 um, 0 um, 0 um]], age: birth, start_volume: 50 %, inflate: 30 min}
+output: {report: false}
+)",
+              name);
+    const std::vector<double> cells = column(name, "cell_count"), times = column(name, "time");
+    const auto divided = std::ranges::find(cells, 2.0);
+    ASSERT_NE(divided, cells.end()) << growth;
+    EXPECT_NEAR(times[static_cast<std::size_t>(divided - cells.begin())], 7200.0, 90.0) << growth;
+  }
+}
+
 }  // namespace
 }  // namespace morula::scenarios::test

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "tests/scenarios/own_parts.h"
 #include "tests/scenarios/simulation_of.h"
 #include "tests/study/study_fixture.h"
 
@@ -94,6 +95,35 @@ TEST(TriggerValues, CellsInAPhaseAreShells) {
   EXPECT_EQ(run_to(text, 1150.0)->tissue().shells.size(), 0u);
   EXPECT_EQ(run_to(text, 1800.0)->tissue().shells.size(), 3u);  // one in a step
   EXPECT_EQ(run_to(text, 3000.0)->tissue().shells.size(), 0u);
+}
+
+class TriggersAtTheStart : public test::OwnParts {
+ protected:
+  TriggersAtTheStart() : OwnParts([](Laws&) {}) {}
+
+  double shells(const std::string& type, const std::string& places, const std::string& trigger) {
+    const std::string name = "run" + std::to_string(runs_++);
+    run_whole(
+        "schema: 1\nstudy: start\ntime: {end: 2 s, output: 1 s}\ndomain: {size: [200 um, 200 um, 200 um]}\n"
+        "cell_types:\n  a: {adhesion: {a: 0.1 mN/m}, cycle: {model: none}, " +
+            type + "}\ninitial:\n  - {type: a, at: [" + places + "]}\ncoupling: {triggers: [{" + trigger + "}]}\noutput: {report: false}\n",
+        name);
+    return column(name, "shell_count").front();
+  }
+
+  int runs_ = 0;
+};
+
+/// Rules look at what cells touch at time 0, too: cells that begin in contact adhere then (a share of 0.030 by JKR, of 0.006 by Hertz).
+TEST_F(TriggersAtTheStart, LookAtCellsThatAdhere) {
+  const std::string pair = "[0 um, 0 um, 0 um], [11.7 um, 0 um, 0 um]";
+  EXPECT_EQ(shells("radius: 6 um", pair, "promote: contact_share < 0.02, demote: contact_share > 0.035"), 0.0);
+  EXPECT_EQ(shells("radius: 6 um", pair, "promote: contact_share > 0.02, demote: contact_share < 0.01"), 2.0);
+  std::string cube;
+  for (int k = 0; k < 8; ++k)
+    cube += (k > 0 ? ", [" : "[") + std::string(k & 1 ? "9.99 um, " : "0 um, ") + (k & 2 ? "9.99 um, " : "0 um, ") +
+            (k & 4 ? "9.99 um]" : "0 um]");
+  EXPECT_EQ(shells("radius: 5 um, cbm: {young: 0.45 kPa, packing: none}", cube, "outside_law: 1"), 8.0);
 }
 
 }  // namespace

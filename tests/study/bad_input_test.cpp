@@ -103,6 +103,8 @@ INSTANTIATE_TEST_SUITE_P(
              "'lateral_easing' has no effect here [E515]"},
         Case{"NamedCellsWithMargin", "shape: sphere, center: [0 um, 0 um, 0 um], radius: 25 um, as: dcm, margin: 3 um",
              "shape: cells, ids: 3, margin: 3 um", "'margin' has no effect here [E515]"},
+        Case{"EverythingWithMargin", "shape: sphere, center: [0 um, 0 um, 0 um], radius: 25 um, as: dcm, margin: 3 um",
+             "shape: everything, margin: 3 um", "'margin' has no effect here [E515]"},
         Case{"NamedCellsWithRadius", "shape: sphere, center: [0 um, 0 um, 0 um], radius: 25 um, as: dcm, margin: 3 um",
              "shape: cells, ids: 3, radius: 3 um", "a region of shape 'cells' has no `radius` [E111]"},
         Case{"NamedCellsWithoutNames", "shape: sphere, center: [0 um, 0 um, 0 um], radius: 25 um, as: dcm, margin: 3 um", "shape: cells",

@@ -212,5 +212,58 @@ TEST(Bodies, MethodsTellHowFarAStudyIsWithinJkr) {
   for (const LawParameter& parameter : found->law.parameters) EXPECT_NE(used_value(*found, parameter), "not set") << parameter.name;
 }
 
+TEST(Bodies, WaterOfTwoBodiesIsToldWhereATypeMayBeBoth) {
+  const std::string water = with("osmosis: {permeability: 1e-13 m/s/Pa}");
+  EXPECT_THAT(test::warnings_of(water), Not(HasSubstr("E704")));
+  EXPECT_THAT(test::warnings_of(water + "coupling: {regions: [{name: core, shape: sphere, radius: 20 um}]}\n"), HasSubstr("E704"));
+}
+
+TEST(Bodies, ASphereIsNotMovedByAForceThatItBearsItself) {
+  const std::string keys = "polarity: {start: [1, 0, 0]}\n    protrusion: {force: 1 nN, angle: 30 deg, reaction: cell}";
+  EXPECT_THAT(test::errors_of(with(keys)), HasSubstr("`reaction: cell` has no effect"));
+  EXPECT_TRUE(test::read(with(keys, test::changed("    radius: 6 um", "    body: shell\n    radius: 6 um", kStudy))).ok());
+}
+
+/// Before the run concentrations are those that fields begin with, and nothing is known of what presses cells.
+TEST(Bodies, WhoBecomesAShellBeforeTheFirstStepIsFoundByWhatIsKnown) {
+  const auto told = [](const std::string& rule) {
+    const std::string packed = test::changed("count: 10, fill: sphere, radius: 40 um", "count: 40, fill: sphere, radius: 25 um", kStudy);
+    const auto study = test::read(packed + "fields:\n  o: {diffusion: 1e-9 m^2/s, initial: 1 mM}\ncoupling: {" + rule + "}\n");
+    EXPECT_TRUE(study.ok());
+    std::string out;
+    if (study.ok())
+      for (const std::string& note : study->notes) out += note + "\n";
+    return out;
+  };
+  EXPECT_THAT(told("triggers: [{promote: o > 0.6 mM, demote: o < 0.5 mM}]"), HasSubstr("40 cells become shells before the first step"));
+  EXPECT_THAT(told("triggers: [{promote: o < 0.6 mM, demote: o > 0.7 mM}]"), Not(HasSubstr("before the first step")));
+  EXPECT_THAT(told("regions: [{name: r, shape: level, field: o, level: 0.6 mM, side: below}]"), Not(HasSubstr("before the first step")));
+  EXPECT_THAT(told("triggers: [{promote: contact_share < 0.9, demote: contact_share > 0.95}]"), Not(HasSubstr("before the first step")));
+}
+
+TEST(Bodies, NoiseThatFoldsTheMeshIsRefused) {
+  const auto noisy = [](const char* energy) {
+    return test::changed("radius: 40 um}", kAsShell, with(std::string("fluctuations: {energy: ") + energy + "}"));
+  };
+  EXPECT_TRUE(test::read(noisy("0.03 fJ")).ok()) << "0.55 um, and edges of 1.8 um";
+  EXPECT_THAT(test::errors_of(noisy("1 fJ")), AllOf(HasSubstr("[E705]"), HasSubstr("by 3.16"), HasSubstr("at most 0.08")));
+  EXPECT_TRUE(test::read(with("fluctuations: {energy: 1 fJ}")).ok()) << "spheres have no mesh";
+}
+
+TEST(Bodies, DivideByTheLawOfTheirBody) {
+  const auto laws_of = [](const std::string& text) {
+    const auto study = test::read(text);
+    EXPECT_TRUE(study.ok());
+    std::string out;
+    if (study.ok())
+      for (const UsedLaw& one : used_laws(*study)) out += one.law.name + " ";
+    return out;
+  };
+  const std::string cycle = with("cycle: {duration: 18 h}");
+  EXPECT_THAT(laws_of(cycle), AllOf(HasSubstr("instant_division"), Not(HasSubstr("shell_division"))));
+  const std::string shells = test::changed("radius: 6 um", "body: shell\n    radius: 6 um", cycle);
+  EXPECT_THAT(laws_of(shells), AllOf(HasSubstr("shell_division"), Not(HasSubstr("instant_division"))));
+}
+
 }  // namespace
 }  // namespace morula::scenarios

@@ -121,6 +121,15 @@ TEST(SizeKeys, AreTheVolumesOfTheirControl) {
   EXPECT_THAT(errors("size: sizer, model: phases"), HasSubstr("no phase of 'a' ends by size"));
 }
 
+std::string warnings(const std::string& cycle) { return warnings_of(with_cycle(cycle)); }
+
+TEST(CycleKeys, ThatNeedGrowthAreToldWithoutIt) {
+  const std::string still = "model: phases, growth: none, phases: {G1: {duration: 1 h}}";
+  EXPECT_THAT(warnings(still + ", ratio: 3"), HasSubstr("'ratio' has no effect here"));
+  EXPECT_THAT(warnings(still + ", arrest: {volume: {from: 95 %, to: 85 %}}"), HasSubstr("'arrest' has no effect here"));
+  EXPECT_EQ(warnings(still), "");
+}
+
 TEST(ArrestKeys, AreChecked) {
   const std::string never = ", inhibit_growth: {pressure_above: never}";
   EXPECT_EQ(

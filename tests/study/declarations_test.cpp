@@ -200,6 +200,8 @@ TEST(StudyDeclarations, KeysAndCodesAreExplained) {
     EXPECT_THAT(*text, HasSubstr("Hochmuth 2000"));
   }
   EXPECT_THAT(explain_study("E203", *builtin_laws()).value_or(""), HasSubstr("E203: unit of another quantity"));
+  for (const char* column : {"outside_fields", "field_balance", "mean_oxygen"})
+    EXPECT_THAT(explain_study(column, *builtin_laws()).value_or(""), HasSubstr("a column of series.csv")) << column;
   EXPECT_FALSE(explain_study("E999", *builtin_laws()));
   EXPECT_FALSE(explain_study("cortex.tensoin", *builtin_laws()));
   EXPECT_FALSE(explain_study("", *builtin_laws()));

@@ -183,6 +183,8 @@ TEST(RandomFill, KeepsDistanceAndDependsOnTheSeed) {
   EXPECT_EQ(cells_of(text)[7].center, cells[7].center);
   EXPECT_NE(cells_of(changed("initial:", "seed: 5\ninitial:", text))[7].center, cells[7].center);
   EXPECT_THAT(errors_of(with_cells("  - {type: red, count: 60, fill: random, radius: 22 um}\n")), HasSubstr("[E506]"));
+  EXPECT_THAT(errors_of(with_cells("  - {types: {red: 50 %, green: 50 %}, count: 90, fill: random, radius: 22 um}\n")),
+              HasSubstr("[E506]"));
 }
 
 TEST(RandomFill, PacksWhatOneByOneWouldNotFit) {
