@@ -11,6 +11,8 @@ namespace {
 
 /// A step may change the volume of a cavity that keeps its solute by this part: its pressure is that of the step's start.
 constexpr double kLumenChange = 0.02;
+/// Of the first step: what still changes as much in steps so short jumps, as where a cell comes over the centre from which its walls are seen.
+constexpr double kLeastStep = 1e-3;
 
 }  // namespace
 
@@ -19,9 +21,11 @@ void Simulation::renew_lumens(double dt) {
   const std::vector<LumenState> before = tissue_.lumens;
   measure_lumens(model_, tissue_, comm_);
   for (std::size_t k = 0; k < before.size(); ++k) {
-    if (!model_.lumens[k].keeps_solute || !(before[k].volume > 0.0)) continue;
+    if (!model_.lumens[k].keeps_solute || !(before[k].volume > 0.0) || !(tissue_.lumens[k].volume > 0.0))
+      continue;  // or it was found, or lost
     const double change = std::abs(tissue_.lumens[k].volume / before[k].volume - 1.0);
-    if (change > kLumenChange) tissue_.clock.next_step = std::min(tissue_.clock.next_step, dt * std::max(0.2, kLumenChange / change));
+    const double wanted = std::max(dt * std::max(0.2, kLumenChange / change), kLeastStep * model_.step.initial_step);
+    if (change > kLumenChange) tissue_.clock.next_step = std::min(tissue_.clock.next_step, wanted);
   }
 }
 

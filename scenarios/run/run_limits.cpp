@@ -66,6 +66,22 @@ Status RunLoop::check_limits(const Measures& m) {
   return {};
 }
 
+void RunLoop::tell_creeping(const StepOutcome& outcome) {
+  constexpr double kShort = 1e-4;  // of the first step
+  constexpr int kMany = 500;
+  if (outcome.mechanics.step >= kShort * study_.model.step.initial_step || simulation_->tissue().clock.capped) {
+    short_steps_ = 0;
+    return;
+  }
+  if (++short_steps_ != kMany) return;
+  const double left = end_ - simulation_->tissue().clock.time;
+  warn_near_limit(kCreeping,
+                  "the last " + std::to_string(kMany) + " steps had " + number_text("%.1g s", outcome.mechanics.step) +
+                      " each, and there are " + time_text(left) +
+                      " to go: something folds or shakes where no longer step is found (see the last snapshot: noise, very strong "
+                      "adhesion or loads, meshes that have lost their shape)");
+}
+
 void RunLoop::tell_to_and_fro(const Event& event, const std::string& reason) {
   constexpr int kTooOften = 4;
   if (event.kind != EventKind::kPromotion || event.reason.cause != EventReason::Cause::kTrigger) return;

@@ -238,6 +238,7 @@ Status RunLoop::step(double land_on) {
   keep_events(outcome.events);
   count_cells();
   MORULA_TRY(check_capped_start());
+  tell_creeping(outcome);
   tell_progress(clock.time - before, std::chrono::duration<double>(SteadyClock::now() - began).count());
   return {};
 }

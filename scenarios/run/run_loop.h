@@ -75,12 +75,15 @@ class RunLoop {
     kBeyondRange = 16,
     kMoreShells = 32,
     kToAndFro = 64,
-    kOutsideFields = 128
+    kOutsideFields = 128,
+    kCreeping = 256
   };
   void warn_near_limit(Warned what, const std::string& text);
   /// Writes into results.h5; where its content is in the way, once more into a new one. Collective.
   Status write_results(const std::function<Status()>& write);
   void tell_idle_loads();
+  /// Warns of a run that hardly moves on: nobody looks at the step of a run over night.
+  void tell_creeping(const StepOutcome& outcome);
   void tell_events();
   /// Warns of cells that change their body again and again: a rule asks for a shell what only spheres answer so.
   void tell_to_and_fro(const Event& event, const std::string& reason);
@@ -120,6 +123,7 @@ class RunLoop {
   bool state_is_whole_ = true;
   Status text_status_;        ///< the first failure of a text written between outputs
   std::uint32_t warned_ = 0;  ///< bits of Warned
+  int short_steps_ = 0;       ///< in a row
 };
 
 }  // namespace morula::scenarios
