@@ -41,7 +41,10 @@ void set_growth(BuildContext& c, const draft::CellType& t, CellType& type) {
 }
 
 /// Whether a key was given another value than its default, which the study with all its defaults says, too.
-bool is_changed(const Given<double>& value, const char* fallback) { return value.given && value.text != fallback; }
+template <class T>
+bool is_changed(const Given<T>& value, const char* fallback) {
+  return value.given && value.text != fallback;
+}
 
 /// The volume at which cells divide: E515, E701.
 void set_size(BuildContext& c, const draft::Cycle& t, CellType& type) {
@@ -95,6 +98,23 @@ void check_switch(BuildContext& c, const draft::CellType& t, const CellType& typ
   }
 }
 
+/// What is said of a cycle that cells do not have: W515.
+void tell_of_rest(BuildContext& c, const draft::CellType& t, const std::string& name) {
+  const auto idle = [&](const auto& key, const char* word, const char* fallback) {
+    if (is_changed(key, fallback))
+      c.diagnostics.warning(515, key.place, "'" + std::string(word) + "' has no effect here: cells of '" + name + "' rest",
+                            "another `model`, or leave it away (where it comes by `like`: `" + std::string(word) + ": default`)");
+  };
+  idle(t.cycle_duration.mean, "duration", "24 h");
+  idle(t.growth, "growth", "linear");
+  idle(t.cycle.ratio, "ratio", "2");
+  idle(t.cycle.control, "size", "timer");
+  idle(t.axis, "axis", "random");
+  idle(t.division_share.mean, "share", "50 %");
+  idle(t.shells_divide, "shells", "cut");
+  idle(t.new_surface, "new_surface", "10 min");
+}
+
 }  // namespace
 
 std::vector<CellArrest> build_phase_arrest(BuildContext& c, const draft::CyclePhase& phase, const Place& place) {
@@ -141,6 +161,7 @@ void build_fates(BuildContext& c, const draft::CellType& t, CellType& type) {
 void build_cycle(BuildContext& c, const draft::CellType& t, const Place& place, CellType& type) {
   type.cycles = t.has_cycle && t.cycle_model.value != "none" && t.cycle_model.known();
   if (!t.has_cycle) return;
+  if (t.cycle_model.value == "none") tell_of_rest(c, t, type.name);
   type.cycle_duration = {t.cycle_duration.mean.value, t.cycle_duration.spread.value, t.cycle_duration.correlation.value};
   if (t.cycle_duration.correlation.value != 0.0 && t.cycle_duration.spread.value == 0.0)
     c.diagnostics.error(515, t.cycle_duration.correlation.place, "'correlation' has no effect here",

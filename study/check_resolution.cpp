@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include "study/build.h"
 #include "study/read_section.h"
@@ -59,20 +60,28 @@ void check_strong_adhesion(BuildContext& c) {
   }
 }
 
-/// Noise moves a node of a surface under tension by √(k_B T/γ): where that is a good part of an edge, meshes fold.
+/// Mean square slope of a surface under noise, of modes up to the edges of its mesh: ⟨θ²⟩ = k_B T/(4πκ) ln(1 + κ q²/(γ + κ/R²)), q = π/edge (Helfrich).
+double square_of_slope(double energy, const dcm::ShellParameters& p, double edge, double radius) {
+  const double most = std::numbers::pi / edge, rigidity = p.helfrich_rigidity + 0.5 * std::numbers::sqrt3 * p.hinge_stiffness;
+  if (rigidity > 0.0)
+    return energy / (4.0 * std::numbers::pi * rigidity) * std::log1p(rigidity * most * most / (p.tension + rigidity / (radius * radius)));
+  return p.tension > 0.0 ? energy * most * most / (4.0 * std::numbers::pi * p.tension) : 0.0;
+}
+
+/// Noise that turns faces too far folds the mesh: no step is found.
 void check_noise(BuildContext& c) {
-  constexpr double kMuch = 0.5;  // of the mean edge (162 nodes, 0.1 mN/m: 0.34 runs, 0.6 creeps, 1.1 folds at once)
+  constexpr double kMost = 0.4;  // ⟨θ²⟩; one cell, 162 nodes, 0.1 mN/m: 0.36 runs (in steps of milliseconds), 0.48 ends within seconds
   for (std::size_t i = 0; i < c.draft.cell_types.size(); ++i) {
     const auto& [name, place, t] = c.draft.cell_types[i];
-    const double energy = c.study.model.types[i].fluctuations.energy, tension = c.study.model.types[i].shell.tension;
-    if (!(energy > 0.0) || !(tension > 0.0) || !t.radius.mean.known() || !may_be_shell(c, i)) continue;
-    const double edge = mean_edge(t.nodes.value) * t.radius.mean.value, most = kMuch * kMuch * edge * edge * tension;
-    if (energy <= most) continue;
-    c.diagnostics.error(705, t.activity.energy.given ? t.activity.energy.place : place,
-                        "fluctuations of " + t.activity.energy.text + " move the nodes of shells of '" + name + "' by " +
-                            short_number(std::sqrt(energy / tension)) + " um against their tension, and edges of the mesh are " +
-                            short_number(edge) + " um long",
-                        "an `energy` of at most " + short_number(most) + " fJ, fewer nodes, or more tension");
+    const double energy = c.study.model.types[i].fluctuations.energy, radius = t.radius.mean.value;
+    if (!(energy > 0.0) || !t.radius.mean.known() || !may_be_shell(c, i)) continue;
+    const double slope2 = square_of_slope(energy, c.study.model.types[i].shell, mean_edge(t.nodes.value) * radius, radius);
+    if (slope2 <= kMost) continue;
+    c.diagnostics.error(
+        705, t.activity.energy.given ? t.activity.energy.place : place,
+        "fluctuations of " + t.activity.energy.text + " turn the faces of shells of '" + name + "' by " +
+            short_number(std::sqrt(slope2) * 180.0 / std::numbers::pi) + " deg: the mesh folds",
+        "an `energy` of at most " + short_number(energy * kMost / slope2) + " fJ, fewer nodes, or more tension or rigidity");
   }
 }
 

@@ -303,7 +303,7 @@ constexpr ErrorCode kCodes[] = {
      "ball, and what pressure leaves of it follows from the bulk "
      "modulus alone. Free cells swell and shrink alike; under pressure only shells hold their water (warning)."},
     {705, "noise that folds a mesh",
-     "Fluctuations move a node by about the square root of their energy over the tension. Beyond half of an edge the mesh folds, and no "
+     "Fluctuations turn faces against their tension and rigidity. Where the mean square of that angle is above 0.4 the mesh folds, and no "
      "step is found."},
 };
 

@@ -245,8 +245,8 @@ TEST(Bodies, NoiseThatFoldsTheMeshIsRefused) {
   const auto noisy = [](const char* energy) {
     return test::changed("radius: 40 um}", kAsShell, with(std::string("fluctuations: {energy: ") + energy + "}"));
   };
-  EXPECT_TRUE(test::read(noisy("0.03 fJ")).ok()) << "0.55 um, and edges of 1.8 um";
-  EXPECT_THAT(test::errors_of(noisy("1 fJ")), AllOf(HasSubstr("[E705]"), HasSubstr("by 3.16"), HasSubstr("at most 0.08")));
+  EXPECT_TRUE(test::read(noisy("0.15 fJ")).ok()) << "34 deg";
+  EXPECT_THAT(test::errors_of(noisy("1 fJ")), AllOf(HasSubstr("[E705]"), HasSubstr("faces of shells"), HasSubstr("at most 0.17")));
   EXPECT_TRUE(test::read(with("fluctuations: {energy: 1 fJ}")).ok()) << "spheres have no mesh";
 }
 

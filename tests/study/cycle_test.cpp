@@ -7,6 +7,7 @@
 namespace morula::scenarios::test {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 std::string with_cycle(const std::string& cycle, const std::string& more = "") {
@@ -128,6 +129,9 @@ TEST(CycleKeys, ThatNeedGrowthAreToldWithoutIt) {
   EXPECT_THAT(warnings(still + ", ratio: 3"), HasSubstr("'ratio' has no effect here"));
   EXPECT_THAT(warnings(still + ", arrest: {volume: {from: 95 %, to: 85 %}}"), HasSubstr("'arrest' has no effect here"));
   EXPECT_EQ(warnings(still), "");
+  EXPECT_THAT(warnings("model: none, growth: exponential, size: adder"),
+              AllOf(HasSubstr("'growth' has no effect here: cells of 'a' rest"), HasSubstr("'size' has no effect here")));
+  EXPECT_EQ(warnings("model: none"), "");
 }
 
 TEST(ArrestKeys, AreChecked) {
