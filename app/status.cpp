@@ -26,7 +26,8 @@ std::string status_text(const RunOverview& run) {
     out += ", left " + scenarios::duration_text(status.left_low) + " to " + scenarios::duration_text(status.left_high);
   out += "\n  as of  " + status.updated + "\n";
   if (!run.record.message.empty()) out += "  why    " + run.record.message + "\n";
-  if (run.lost || status.state == RunState::kStopped) out += "  next   morula resume " + run.path.string() + "\n";
+  if (run.lost || status.state == RunState::kStopped)
+    out += "  next   morula resume " + run.path.string() + " --until " + number_text("%.15g", status.end) + "s\n";
   return out;
 }
 

@@ -212,6 +212,9 @@ void build_lumens(BuildContext& c) {
       c.diagnostics.warning(698, place,
                             "the cavity '" + name + "' is bounded by the faces of a mark alone: where an obstacle closes it, it is open",
                             "`faces: seen`, which finds obstacles, too");
+    if (const auto& end = c.draft.time.end; end.known() && !(lumen.from < end.value))
+      c.diagnostics.warning(694, place, "the cavity '" + name + "' begins when the run has ended (" + end.text + ")",
+                            "an earlier `from`, or no cavity");
     if (lumen.mark >= 0) c.study.model.lumens.push_back(std::move(lumen));
   }
 }

@@ -266,7 +266,8 @@ constexpr ErrorCode kCodes[] = {
      "own error and range "
      "may not hold. A file without a `checksum` is taken as it is."},
     {694, "rule that nobody meets",
-     "A trigger compares with what no cell can have (a share of a surface above 2, an age below 0), or with what all have, or a region "
+     "A trigger compares with what no cell can have (a share of a surface above 2, an age below 0), or with what all have, or a region or "
+     "cavity "
      "begins "
      "when the run has ended."},
     {695, "tension in contact of a fluid cortex",

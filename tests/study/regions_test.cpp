@@ -209,6 +209,8 @@ TEST(Regions, MarksAndCavitiesThatAreNoneAreRefused) {
   const std::string within = errors("gap: {center: [0 um, 0 um, 0 um], pressure: 20 Pa, solute: kept, from: 5 min,",
                                     "gap: {center: [19 um, 1 um, 0 um], pressure: 20 Pa, solute: kept,");
   EXPECT_NE(within.find("the centre of the cavity 'gap' lies in a cell"), std::string::npos) << within;
+  const std::string late = test::warnings_of(test::changed("solute: kept, from: 5 min,", "solute: kept, from: 2 h,", kStudy));
+  EXPECT_NE(late.find("the cavity 'gap' begins when the run has ended (1 h)"), std::string::npos) << late;
 }
 
 TEST(Regions, TurnoverIsFollowedInTenStepsATime) {
