@@ -157,6 +157,29 @@ output: {report: false}
   EXPECT_NEAR(way("apical: {s: {mark: apical, stiffness: 0 kPa/um, friction: 1e10 N s/m^3}}\n", "", "dampers"), free, 0.002 * free);
 }
 
+/// Nobody looks at the step of a run over night: one that hardly moves on says so, once.
+TEST_F(DefaultNumerics, ARunThatCreepsSaysSo) {
+  const auto log = [&](const std::string& numerics, const std::string& name) {
+    run_whole(R"(schema: 1
+study: creep
+time: {end: 1 s, output: 500 ms}
+domain: {size: [60 um, 60 um, 60 um]}
+numerics: {)" + numerics +
+                  R"(}
+cell_types: {a: {radius: 6 um, body: shell, dcm: {nodes: 42}}}
+initial: [{type: a, at: [0 um, 0 um, 0 um]}]
+loads: {p: {type: a, body_force: [2 nN, 0 nN, 0 nN]}}
+output: {report: false}
+)",
+              name);
+    return file(name, "log.txt");
+  };
+  const std::string creeps = log("initial_step: 1 min, max_displacement: 0.0001", "creeps");
+  EXPECT_THAT(creeps, testing::HasSubstr("the last 500 steps had"));
+  EXPECT_EQ(creeps.find("the last 500 steps"), creeps.rfind("the last 500 steps"));
+  EXPECT_THAT(log("max_displacement: 0.0001", "short"), testing::Not(testing::HasSubstr("the last 500 steps"))) << "as short as it began";
+}
+
 /// A sphere does not turn, whatever way it goes.
 TEST_F(DefaultNumerics, ASphereAloneDoesNotTurn) {
   run_whole(R"(schema: 1
