@@ -73,13 +73,14 @@ void RunLoop::tell_creeping(const StepOutcome& outcome) {
     short_steps_ = 0;
     return;
   }
-  if (++short_steps_ != kMany) return;
+  if (++short_steps_ != kMany || (warned_ & kCreeping) != 0) return;
   const double left = end_ - simulation_->tissue().clock.time;
-  warn_near_limit(kCreeping,
-                  "the last " + std::to_string(kMany) + " steps had " + number_text("%.1g s", outcome.mechanics.step) +
-                      " each, and there are " + time_text(left) +
-                      " to go: something folds or shakes where no longer step is found (see the last snapshot: noise, very strong "
-                      "adhesion or loads, meshes that have lost their shape)");
+  // to the log alone: steps in a row are not counted over a restart
+  note(Note::Kind::kWarning, "the last " + std::to_string(kMany) + " steps had " + number_text("%.1g s", outcome.mechanics.step) +
+                                 " each, and there are " + time_text(left) +
+                                 " to go: something folds or shakes where no longer step is found (see the last snapshot: noise, very "
+                                 "strong adhesion or loads, meshes that have lost their shape)");
+  warned_ |= kCreeping;
 }
 
 void RunLoop::tell_to_and_fro(const Event& event, const std::string& reason) {
