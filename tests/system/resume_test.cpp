@@ -140,6 +140,10 @@ std::vector<Feature> shells_from_inside_and_outside() {
        kRange +
            "loads:\n  held: {type: cell, grip: {stiffness: 5 mN/m, center: [0 um, 0 um, 0 um], axis: [0, 0, 1], ends: low, way: [{time: 50 "
            "s, distance: 0 um}, {time: 500 s, distance: -1 um}]}}\n"},
+      {"FluidsThatAdhereByTheirTension",
+       cortexed("elastic: none, regions: {lateral: {tension: 0.15 mN/m, amplitude: 20 %, period: 150 s, course: [{time: 100 s, factor: 1}, "
+                "{time: 400 s, factor: 0.7}]}}"),
+       kPair, kRange},
       {"ApicalSprings", kShell, kPair, kRange + marks + "apical: {inside: {mark: top, stiffness: 20 Pa/um, friction: 1e8 N s/m^3}}\n"},
       {"LoadedShellsAndAPlate", "", "", "", "", "", "30 s", "", "", loaded_study()},
       {"NucleiLinksOsmosisAndFields", "", "", "", "", "", "10 min", "", "", interior_study()},
