@@ -24,8 +24,9 @@ void Simulation::renew_lumens(double dt) {
     if (!model_.lumens[k].keeps_solute || !(before[k].volume > 0.0) || !(tissue_.lumens[k].volume > 0.0))
       continue;  // or it was found, or lost
     const double change = std::abs(tissue_.lumens[k].volume / before[k].volume - 1.0);
+    if (change <= kLumenChange) continue;
     const double wanted = std::max(dt * std::max(0.2, kLumenChange / change), kLeastStep * model_.step.initial_step);
-    if (change > kLumenChange) tissue_.clock.next_step = std::min(tissue_.clock.next_step, wanted);
+    tissue_.clock.next_step = std::min(tissue_.clock.next_step, wanted);
   }
 }
 

@@ -26,25 +26,21 @@ std::uint64_t cells_of_type(const draft::Study& study, const std::string& type) 
   return out;
 }
 
-/// By how much contact lowers the tension of a type at the start [nN/µm].
-double drop_in_contact(const BuildContext& c, const std::string& name) {
-  for (std::size_t i = 0; i < c.draft.cell_types.size(); ++i) {
-    const CellType& type = c.study.model.types[i];
-    if (c.draft.cell_types[i].name == name) return type.regional_tension.drop_in_contact(type.shell.tension, 0.0);
-  }
-  return 0.0;
-}
-
 /// Many cells that adhere nearly as much as their tension allows fold at triple lines, and a fine mesh cannot pass over the folds.
 void check_strong_adhesion(BuildContext& c) {
   if (!may_have_shells(c.draft)) return;
-  for (const auto& [name, place, t] : c.draft.cell_types) {
+  const auto drop = [&](std::size_t i) {
+    const CellType& type = c.study.model.types[i];
+    return type.regional_tension.drop_in_contact(type.shell.tension, 0.0);
+  };
+  for (std::size_t i = 0; i < c.draft.cell_types.size(); ++i) {
+    const auto& [name, place, t] = c.draft.cell_types[i];
     if (!t.nodes.known() || t.nodes.value < kFineNodes || !t.tension.known() || !(t.tension.value > 0.0)) continue;
     for (const auto& sticks : t.adhesion) {
       const auto other =
           std::find_if(c.draft.cell_types.begin(), c.draft.cell_types.end(), [&](const auto& type) { return type.name == sticks.name; });
       if (other == c.draft.cell_types.end() || !sticks.content.known() || !other->content.tension.known()) continue;
-      const double drops = drop_in_contact(c, name) + drop_in_contact(c, other->name);
+      const double drops = drop(i) + drop(static_cast<std::size_t>(other - c.draft.cell_types.begin()));
       const double ratio = (sticks.content.value + drops) / (t.tension.value + other->content.tension.value);
       const bool same = other->name == name;
       const std::uint64_t cells = cells_of_type(c.draft, name) + (same ? 0 : cells_of_type(c.draft, other->name));

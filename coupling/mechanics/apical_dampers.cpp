@@ -139,11 +139,7 @@ void ApicalDampers::add_noise(const World& world, const Noise& noise, std::span<
 }
 
 void ApicalDampers::assemble(const World& world, double, Assembly&) {
-  if (empty()) return;
-  const auto bodies = world.scene.bodies().first(world.scene.owned_shells());
-  std::vector<char> moves(bodies.size());
-  std::ranges::transform(bodies, moves.begin(), &ContactBody::active);
-  assemble_of(moves, world.comm);
+  if (!empty()) assemble_of(moving_shells(world.scene), world.comm);
 }
 
 void ApicalDampers::assemble_of(std::span<const char> moves, const Comm& comm) {

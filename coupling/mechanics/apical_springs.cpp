@@ -55,11 +55,7 @@ void ApicalSprings::add_forces(std::span<const Vec3d> x, std::span<Vec3d> force,
 }
 
 void ApicalSprings::assemble(const World& world, double dt, Assembly&) {
-  if (empty()) return;
-  const auto bodies = world.scene.bodies().first(world.scene.owned_shells());
-  std::vector<char> moves(bodies.size());
-  std::ranges::transform(bodies, moves.begin(), &ContactBody::active);
-  assemble_at(world.position(), moves, dt, world.comm);
+  if (!empty()) assemble_at(world.position(), moving_shells(world.scene), dt, world.comm);
 }
 
 void ApicalSprings::assemble_at(std::span<const Vec3d> x, std::span<const char> moves, double dt, const Comm& comm) {

@@ -6,6 +6,7 @@
 #include "core/parallel/comm.h"
 #include "core/parallel/order_free_sum.h"
 #include "core/vec3.h"
+#include "coupling/mechanics/scene.h"
 #include "dcm/shells.h"
 
 namespace morula {
@@ -41,6 +42,9 @@ struct MarkedNode {
 
 /// The owned nodes of faces with a mark, at the shells' positions.
 NodesByShell<MarkedNode> marked_nodes(const dcm::Shells& shells, int mark);
+
+/// Which owned shells move.
+std::vector<char> moving_shells(const Scene& scene);
 
 /// Of length 1; zero where there is none.
 inline Vec3d direction(const Vec3d& from) {

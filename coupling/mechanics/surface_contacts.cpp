@@ -120,15 +120,14 @@ void SurfaceContacts::carry_found(const World& world, const BodyChanges& changes
 }
 
 void SurfaceContacts::parameters_changed(const World& world) {
-  if (tensions_vary_) {
-    layer_.take_tensions(contact_materials(world.model, world.time));
-    forget();
-  }
   std::vector<SisterBond> bonds;
   if (bonds_age_) bonds = new_interfaces(world.model, world.tissue, world.time);
-  if (bonds == layer_.sister_bonds()) return;
+  const bool same_bonds = bonds == layer_.sister_bonds();
   const auto has_regions = [](const CellType& type) { return !type.regional_tension.empty(); };  // of others it is that of the start
-  if (std::ranges::any_of(world.model.types, has_regions)) layer_.take_tensions(contact_materials(world.model, world.time));
+  if (tensions_vary_ || (!same_bonds && std::ranges::any_of(world.model.types, has_regions)))
+    layer_.take_tensions(contact_materials(world.model, world.time));
+  if (tensions_vary_) forget();
+  if (same_bonds) return;
   std::vector<SisterBond> changed;
   const auto before = [](const SisterBond& a, const SisterBond& b) { return a.cell != b.cell ? a.cell < b.cell : a.age < b.age; };
   std::ranges::set_symmetric_difference(bonds, layer_.sister_bonds(), std::back_inserter(changed), before);

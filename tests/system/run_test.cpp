@@ -225,6 +225,17 @@ TEST(Resume, RefusesChangesThatTheCheckpointCannotFollow) {
   refused("time.end=10 min", "later than `time.end`");
   refused("initial.0.count=2", "how a run begins");
   refused("fields.o.initial=3 mM", "`fields.o.initial` says how a run begins");
+  refused("cell_types.round.cycle.model=phases", "other phases of the cycle of 'round'");
+  refused("cell_types.round.dcm.nodes=642", "other nodes of the shells of 'round'");
+}
+
+TEST(Resume, IsToldWithTheEndThatWasAskedFor) {
+  const TestFolder folder;
+  folder.write("study.yaml", sphere_study());
+  const Outcome stopped = run_morula({"run", "study.yaml", "--out", "first", "--until", "30 min", "--max-wall", "1 ms"}, folder.path());
+  ASSERT_EQ(stopped.exit_code, 75) << stopped.all();
+  EXPECT_THAT(stopped.all(), testing::HasSubstr("morula resume first --until 1800s"));
+  EXPECT_THAT(run_morula({"status", "first"}, folder.path()).all(), testing::HasSubstr("morula resume first --until 1800s"));
 }
 
 TEST(Resume, KnowsWhenItsInputsOrItsResultsAreNotWhatTheyWere) {
