@@ -2,12 +2,23 @@
 #include "app/measures.h"
 #include "app/verbs.h"
 #include "coupling/observables/observable.h"
+#include "scenarios/criteria/run_checks.h"
 #include "scenarios/measures/measures.h"
 #include "scenarios/measures/theories.h"
 #include "study/catalogue.h"
 #include "study/diagnostics.h"
 
 namespace morula::app {
+namespace {
+
+/// What is known of a check that every run undergoes, by its id; empty for any other.
+std::string explain_check(const std::string& id) {
+  for (const scenarios::RunCheck& check : scenarios::run_checks())
+    if (id == check.id) return id + ": " + check.quantity + "\n  limit: " + check.limit + "\n  " + check.doc + "\n";
+  return {};
+}
+
+}  // namespace
 
 Status explain(const ExplainOptions& options, const Context& context) {
   if (options.markdown == "laws") {
@@ -22,11 +33,12 @@ Status explain(const ExplainOptions& options, const Context& context) {
     context.console.result(measure_reference());
     return {};
   }
-  std::string text = explain_measure(options.id);
+  std::string text = explain_measure(options.id) + explain_check(options.id);
   for (const ListedLaw& law : laws_named(*context.laws, options.id)) text += law_text(law);
   if (const auto found = scenarios::explain_study(options.id, *context.laws)) text += *found;
   if (text.empty()) {
     std::vector<std::string> known = law_names(*context.laws);
+    for (const scenarios::RunCheck& check : scenarios::run_checks()) known.emplace_back(check.id);
     for (const scenarios::Measure& measure : scenarios::measures()) known.push_back(measure.name);
     for (std::string& name : scenarios::theory_names()) known.push_back(std::move(name));
     for (std::string& path : scenarios::study_key_paths(*context.laws)) {

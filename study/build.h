@@ -82,6 +82,8 @@ void check_whole(BuildContext& context);
 void check_resolution(BuildContext& context);
 /// What bodies do not do: shells that wait, adhesion of spheres beyond JKR: E646, E647.
 void check_bodies(BuildContext& context);
+/// Keys that nothing reads in this study: W515.
+void check_unused(BuildContext& context);
 
 /// Index of a cell type or field by name, or −1 and an error with suggestions.
 int find_type(BuildContext& context, const std::string& name, const Place& place);

@@ -40,12 +40,6 @@ void set_growth(BuildContext& c, const draft::CellType& t, CellType& type) {
   check_law_keys(c, t.growth_own, choosable_growth_laws(*c.options.laws), cycle.growth->word, "growth");
 }
 
-/// Whether a key was given another value than its default, which the study with all its defaults says, too.
-template <class T>
-bool is_changed(const Given<T>& value, const char* fallback) {
-  return value.given && value.text != fallback;
-}
-
 /// The volume at which cells divide: E515, E701.
 void set_size(BuildContext& c, const draft::Cycle& t, CellType& type) {
   CellCycle& cycle = type.cycle;

@@ -156,6 +156,9 @@ class InitialBuilder {
       c_.diagnostics.error(515, d.units.place, "'units' has no effect here: all columns of '" + shown + "' have a unit of their own",
                            "leave it away, or take the units out of the header");
     cells.count = csv->cells.size();
+    if (d.age.given && d.age.value == "birth" && std::ranges::all_of(csv->cells, [](const CsvCell& cell) { return cell.phase >= 0.0; }))
+      c_.diagnostics.warning(515, d.age.place, "'age' has no effect here: all rows of '" + shown + "' have a `phase`",
+                             "leave it away, or take the column out");
     if (!csv->ignored_columns.empty()) {
       std::string note = shown + ": columns left aside:";
       for (const std::string& column : csv->ignored_columns) note += " `" + column + "`";

@@ -111,6 +111,12 @@ TimeCourse build_course(BuildContext& c, const std::vector<Named<draft::CoursePo
   }
   if (out.time.size() == 1)
     c.diagnostics.error(510, points.front().place, "a course needs at least two points", "give where it begins and where it ends");
+  const Given<double>& end = c.draft.time.end;
+  if (out.time.size() > 1 && end.known() && out.time.front() >= end.value)
+    c.diagnostics.warning(694, points.front().content.time.place,
+                          "this course begins at " + points.front().content.time.text + ", and the run ends at " + end.text +
+                              ": the value is that of its first point all the time",
+                          "an earlier course, or a later `time.end`");
   return out;
 }
 

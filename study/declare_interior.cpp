@@ -1,5 +1,6 @@
 // What is inside a cell: water and solutes, a nucleus, a cytoskeleton.
 #include "study/declare.h"
+#include "study/given_keys.h"
 
 namespace morula::scenarios {
 namespace {
@@ -95,20 +96,8 @@ void declare_nucleus(Section& n, draft::Nucleus& nucleus) {
   const bool is_shell = nucleus.kind.value != "rigid" && nucleus.kind.value != "none";
   draft::ShellKeys unused;
   declare_shell_keys(n, is_shell ? nucleus.shell : unused, nullptr);
-  const auto note = [&](const char* name, const auto& key) {
-    if (key.given) nucleus.no_effect.push_back({name, key.place, true});
-  };
-  for (const draft::Layer* layer : {static_cast<const draft::Layer*>(&unused), static_cast<const draft::Layer*>(&unused.membrane)}) {
-    note("elastic", layer->elastic);
-    note(layer == &unused ? "law" : "bending", layer->bending_law), note("rigidity", layer->bending);
-    for (const auto& [name, key] : layer->own) note(name.c_str(), key);
-  }
-  note("nodes", unused.nodes), note("young", unused.young), note("thickness", unused.thickness), note("poisson", unused.poisson);
-  note("tension", unused.tension), note("turnover", unused.turnover), note("damping", unused.damping);
-  note("isotropic_damping", unused.isotropic_damping), note("local", unused.local_area), note("global", unused.global_area);
-  note("on_top", unused.area_on_top), note("bulk_modulus", unused.bulk_modulus);
-  note("bulk_viscosity", unused.bulk_viscosity), note("shape_stiffness", unused.shape_stiffness);
-  note("stiffness", unused.fold_stiffness), note("angle", unused.fold_angle);
+  for (const GivenKey& key : keys_given(n.laws(), [&unused](Section& shell) { declare_shell_keys(shell, unused, nullptr); }))
+    nucleus.no_effect.push_back({key.path.substr(key.path.rfind('.') + 1), key.place, true});
 }
 
 void declare_links(Section& l, draft::Links& links, const char* number) {

@@ -16,4 +16,10 @@ struct Given {
   [[nodiscard]] bool known() const { return !text.empty(); }
 };
 
+/// Whether a key was given another value than its default, which the study with all its defaults says, too.
+template <class T>
+bool is_changed(const Given<T>& value, const char* fallback) {
+  return value.given && value.text != fallback;
+}
+
 }  // namespace morula::scenarios

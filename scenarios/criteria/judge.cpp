@@ -6,13 +6,13 @@
 #include "coupling/changing_box.h"
 #include "results/series_reader.h"
 #include "scenarios/criteria/judge_criteria.h"
+#include "scenarios/criteria/run_checks.h"
 #include "scenarios/measures/verdicts.h"
 
 namespace morula::scenarios {
 namespace {
 
-constexpr double kEnergyRise = 1e-3;  // of the range (INV.7)
-constexpr double kRest = 1e-9;        // range of the energy over its size, below which a tissue is at rest and what is left is rounding
+constexpr double kRest = 1e-9;  // range of the energy over its size, below which a tissue is at rest and what is left is rounding
 
 /// Largest value of a column; kNothing, which passes no limit, without a row or where a value is no number.
 double largest(const SeriesColumn* column) {
@@ -35,15 +35,19 @@ double largest_rise(const SeriesColumn* energy) {
   return range == 0.0 ? rise.value() : rise.value() / std::max(range, kRest * size);
 }
 
+NotChecked not_checked(const char* id, std::string why) { return {id, run_check(id).quantity, std::move(why)}; }
+
+Verdict at_most_of(const char* id, double value, double limit, const char* unit = "") {
+  return at_most(id, run_check(id).quantity, value, limit, unit);
+}
+
 /// What no row of a series shows, for any run.
 std::vector<NotChecked> never_checked(const Study& study) {
-  const char* tests = "held by the tests of the program, not looked at in a run";
-  std::vector<NotChecked> out{{"INV.1", "forces between cells and within them add up to nothing", tests},
-                              {"INV.2", "surfaces stay closed, with well-shaped faces", tests},
-                              {"INV.6", "residual of the linear systems", tests},
-                              {"INV.8, INV.9", "the same bits on any number of threads and ranks, and over a restart", tests},
-                              {"", "errors of step, mesh and tolerance",
-                               "run the study again with half the step, with a finer mesh, with other seeds: docs/convergence.md"}};
+  std::vector<NotChecked> out;
+  for (const char* id : {"INV.1", "INV.2", "INV.6", "INV.8", "INV.9"})
+    out.push_back(not_checked(id, "held by the tests of the program, not looked at in a run"));
+  out.push_back({"", "errors of step, mesh and tolerance",
+                 "run the study again with half the step, with a finer mesh, with other seeds: docs/convergence.md"});
   if (study.criteria.empty())
     out.push_back({"", "agreement with a theory, with data, or with what the study is meant to show",
                    "the study has no `criteria`; its parameters are as good as their sources (methods.md)"});
@@ -70,41 +74,34 @@ Result<Judgement> common_criteria(const Study& study, const std::filesystem::pat
   const Limits& limits = study.model.limits;
   Judgement out;
   out.not_checked = never_checked(study);
-  out.verdicts.push_back(
-      at_most("INV.3", "volume of any cell against its pressure law, relative", largest(series.find("volume_error")), limits.volume_error));
-  const char* penetration = "deepest penetration of a surface at the start and in any step";
+  out.verdicts.push_back(at_most_of("INV.3", largest(series.find("volume_error")), limits.volume_error));
   if (largest(series.find("shell_count")) == 0.0)
-    out.not_checked.push_back({"INV.4", penetration, "no cell was a shell at any output: spheres of a pair law overlap"});
+    out.not_checked.push_back(not_checked("INV.4", "no cell was a shell at any output: spheres of a pair law overlap"));
   else
-    out.verdicts.push_back(at_most("INV.4", penetration, largest(series.find("worst_overlap")), limits.overlap, "um"));
+    out.verdicts.push_back(at_most_of("INV.4", largest(series.find("worst_overlap")), limits.overlap, "um"));
   if (const auto* clearance = series.find("nucleus_clearance")) {
-    const char* quantity = "how far a node of a nucleus is outside its cortex, at any output";
     Largest outside;
     for (const double value : clearance->values)
       if (!std::isnan(value)) outside.add(std::max(0.0, -value));
     if (outside.shown())
-      out.verdicts.push_back(at_most("INV.5", quantity, outside.value(), limits.overlap, "um"));
+      out.verdicts.push_back(at_most_of("INV.5", outside.value(), limits.overlap, "um"));
     else
-      out.not_checked.push_back({"INV.5", quantity, "no cell had a nucleus at any output"});
+      out.not_checked.push_back(not_checked("INV.5", "no cell had a nucleus at any output"));
   }
-  if (std::any_of(study.model.types.begin(), study.model.types.end(),
-                  [](const CellType& type) { return type.interior.has_rigid_nucleus(); }))
+  if (std::ranges::any_of(study.model.types, [](const CellType& type) { return type.interior.has_rigid_nucleus(); }))
     out.not_checked.push_back({"INV.5", "how far rigid nuclei are outside their cortex", "only of nuclei that are shells it is measured"});
-  const char* rise = "rise of the energy between outputs, relative to its range";
   if (!is_passive(study))
-    out.not_checked.push_back(
-        {"INV.7", rise,
-         "something drives the tissue (growth, motion, loads, a box that changes, exchanges, renewed meshes): its energy may rise"});
+    out.not_checked.push_back(not_checked(
+        "INV.7",
+        "something drives the tissue (growth, motion, loads, a box that changes, exchanges, renewed meshes): its energy may rise"));
   else if (series.rows() < 3)
-    out.not_checked.push_back({"INV.7", rise, "the run has fewer than two outputs after its start"});
+    out.not_checked.push_back(not_checked("INV.7", "the run has fewer than two outputs after its start"));
   else
-    out.verdicts.push_back(at_most("INV.7", rise, largest_rise(series.find("energy")), kEnergyRise));
-  if (!study.model.fields.empty())
-    out.verdicts.push_back(at_most("LIMIT.field_balance", "balance of the amounts of every field, relative",
-                                   largest(series.find("field_balance")), limits.field_balance));
-  if (!study.model.fields.empty() && !periodic_along_all_axes(study.model.space))
-    out.verdicts.push_back(at_most("LIMIT.outside_fields", "cells beyond the faces of the domain, where no field is",
-                                   largest(series.find("outside_fields")), 0.0));
+    out.verdicts.push_back(at_most_of("INV.7", largest_rise(series.find("energy")), kMostEnergyRise));
+  if (study.model.fields.empty()) return out;
+  out.verdicts.push_back(at_most_of("LIMIT.field_balance", largest(series.find("field_balance")), limits.field_balance));
+  if (!periodic_along_all_axes(study.model.space))
+    out.verdicts.push_back(at_most_of("LIMIT.outside_fields", largest(series.find("outside_fields")), 0.0));
   return out;
 }
 

@@ -241,12 +241,21 @@ void add_fields(const Model& model, std::vector<UsedLaw>& out) {
   }
 }
 
-void add_swaps(const Swaps& swaps, std::vector<UsedLaw>& out) {
+void add_swaps(const Model& model, std::vector<UsedLaw>& out) {
+  const Swaps& swaps = model.swaps;
   for (const Region& region : swaps.regions)
     out.push_back({"region " + region.name, region.shape->info, named_values(region.shape->info, region.values)});
+  const auto told = [&](const std::string& which, const std::string& title) {
+    const LawInfo info{.name = "exchange", .title = title, .equation = "", .source = "choice of this project", .parameters = {}};
+    out.push_back({"exchange of bodies " + which, info, {}});
+  };
   for (const Trigger& trigger : swaps.triggers)
     if (trigger.compares())
       out.push_back({"exchange of bodies", trigger.value->info, {{"promote", trigger.promote}, {"demote", trigger.demote}}});
+    else if (!trigger.phase.empty())
+      told("in phase " + trigger.phase, "Cells in a phase of their cycle are shells, others spheres");
+    else
+      told("of " + model.types[static_cast<std::size_t>(trigger.type)].name, "All cells of a type are shells");
 }
 
 void add_loads(const Model& model, std::vector<UsedLaw>& out) {
@@ -283,7 +292,7 @@ std::vector<UsedLaw> used_laws(const Study& study) {
   for (std::size_t t = 0; t < model.types.size(); ++t) add_behaviours(model.types[t], bodies[t], out);
   add_fields(model, out);
   add_loads(model, out);
-  add_swaps(model.swaps, out);
+  add_swaps(model, out);
   add_active_laws(model, std::ranges::any_of(bodies, &Bodies::shell), out);
   return out;
 }

@@ -137,7 +137,7 @@ TEST(Bodies, ARestingContactIsThatOfTheReferencePair) {
 }
 
 TEST(Bodies, DefaultsLieWithinTheRangeOfJkr) {
-  EXPECT_EQ(test::warnings_of(kStudy), "");
+  EXPECT_EQ(test::warnings_of(test::changed("radius: 40 um}", "radius: 40 um, as: sphere}", kStudy)), "");
   const CellType type = test::read(kStudy)->model.types[0];
   const cbm::RestingContact rest = cbm::resting_contact(type.sphere, 6.0, type.sphere, 6.0, test::read(kStudy)->model.pair(0, 0).adhesion);
   EXPECT_NEAR(rest.radius_ratio, 0.40, 0.005);
@@ -210,6 +210,20 @@ TEST(Bodies, MethodsTellHowFarAStudyIsWithinJkr) {
   const auto found = std::ranges::find(laws, std::string("jkr_range"), [](const UsedLaw& use) { return use.law.name; });
   ASSERT_NE(found, laws.end());
   for (const LawParameter& parameter : found->law.parameters) EXPECT_NE(used_value(*found, parameter), "not set") << parameter.name;
+}
+
+TEST(Bodies, MethodsTellRulesOfPhasesAndTypes) {
+  const std::string phases = with("cycle: {model: phases, phases: {G1: 10 h, M: 1 h}}");
+  const auto study =
+      test::read(phases + "coupling: {triggers: [{phase: M}, {type: cell}, {promote: pressure > 1 kPa, demote: pressure < 600 Pa}]}\n");
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  std::string told;
+  for (const UsedLaw& one : used_laws(*study))
+    if (one.purpose.starts_with("exchange of bodies")) told += one.purpose + ": " + one.law.title + "\n";
+  EXPECT_EQ(told,
+            "exchange of bodies in phase M: Cells in a phase of their cycle are shells, others spheres\n"
+            "exchange of bodies of cell: All cells of a type are shells\n"
+            "exchange of bodies: Pressure of a cell, averaged over a minute\n");
 }
 
 TEST(Bodies, WaterOfTwoBodiesIsToldWhereATypeMayBeBoth) {

@@ -9,6 +9,7 @@
 namespace morula::test {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
@@ -167,6 +168,8 @@ TEST(CommandLine, OnSeveralRanksTheRootAloneSpeaksAndAllEndAlike) {
 TEST(Explain, KnowsKeysLawsAndCodes) {
   const TestFolder folder;
   EXPECT_THAT(run_morula({"explain", "E203"}, folder.path()).out, StartsWith("E203: "));
+  EXPECT_THAT(run_morula({"explain", "INV.4"}, folder.path()).out, AllOf(StartsWith("INV.4: "), HasSubstr("limit: limits.overlap")));
+  EXPECT_THAT(run_morula({"explain", "INV.44"}, folder.path()).err, HasSubstr("did you mean `INV.4`?"));
   EXPECT_THAT(run_morula({"explain", "cell_types.hepatocyte.dcm.cortex.tension"}, folder.path()).out, HasSubstr("example:"));
   EXPECT_THAT(run_morula({"explain", "jkr"}, folder.path()).out, HasSubstr("Johnson"));
   EXPECT_THAT(run_morula({"explain", "--markdown", "laws"}, folder.path()).out, HasSubstr("### `jkr`"));

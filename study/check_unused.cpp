@@ -1,0 +1,95 @@
+// What the study says and nothing in it reads.
+#include <algorithm>
+#include <set>
+#include <tuple>
+
+#include "study/build.h"
+#include "study/declare.h"
+#include "study/given_keys.h"
+
+namespace morula::scenarios {
+namespace {
+
+void tell(BuildContext& c, const Place& place, const std::string& what, const std::string& help) {
+  c.diagnostics.warning(515, place, what + ": it has no effect", help);
+}
+
+/// Keys of shells in a type that nobody made one, and that no fitted law is of. Who writes `body` or `as: sphere` beside them knows; a type that is like another has its keys.
+void check_shells_that_are_none(BuildContext& c) {
+  using Spot = std::tuple<const SourceText*, int, int>;
+  const auto spot = [](const Place& place) { return Spot{place.source.get(), place.line, place.column}; };
+  const auto keys = [&c](draft::CellType& type) { return keys_given(*c.options.laws, [&type](Section& s) { declare_shell(s, type); }); };
+  const bool has_meshes = std::ranges::any_of(c.draft.initial, [](const auto& block) { return block.content.has_meshes; });
+  if (has_meshes || !c.options.fitted_laws) return;  // cells of meshes are shells; a type that is being fitted is looked at as both bodies
+  std::set<Spot> used;
+  for (std::size_t i = 0; i < c.draft.cell_types.size(); ++i)
+    if (may_be_shell(c, i) || c.draft.cell_types[i].content.sphere_law.value == kFittedLaw)
+      for (const GivenKey& key : keys(c.draft.cell_types[i].content)) used.insert(spot(key.place));
+  for (std::size_t i = 0; i < c.draft.cell_types.size(); ++i) {
+    auto& [name, place, type] = c.draft.cell_types[i];
+    if (type.body.given || may_be_shell(c, i) || std::ranges::any_of(c.draft.initial, [](const auto& b) { return b.content.body.given; }))
+      continue;
+    auto given = keys(type);
+    std::erase_if(given, [&](const GivenKey& key) { return used.contains(spot(key.place)); });
+    if (given.empty()) continue;
+    const std::string others = given.size() > 1 ? " (and " + std::to_string(given.size() - 1) + " more)" : "";
+    tell(c, given.front().place,
+         "`dcm." + given.front().path + "`" + others + " is of shells, and cells of '" + name + "' are always spheres",
+         "`body: shell`, or a rule of `coupling`; `body: sphere` where it is meant so");
+    for (const GivenKey& key : given) used.insert(spot(key.place));  // types that are like this one say nothing more
+  }
+}
+
+/// What belongs to rules of exchange, where there is none.
+void check_exchange(BuildContext& c) {
+  draft::Coupling& d = c.draft.coupling;
+  if (!d.regions.empty() || !d.triggers.empty()) return;
+  const Given<double>& hold = d.swaps.of("hold", &Swaps::hold);
+  const Given<std::uint64_t>& most = d.swaps.of("max_shells", &Swaps::max_shells);
+  const auto warn = [&c](const Place& place, const char* key) {
+    tell(c, place, std::string("'") + key + "' is of rules by which cells change their body, and there is none",
+         "add `regions` or `triggers`");
+  };
+  if (is_changed(hold, "10 min")) warn(hold.place, "hold");
+  if (is_changed(most, "unlimited")) warn(most.place, "max_shells");
+}
+
+/// What the contacts of surfaces have, where there are none.
+void check_contact(BuildContext& c) {
+  if (may_have_shells(c.draft)) return;
+  const draft::Contact& d = c.draft.contact;
+  const auto warn = [&c](const Place& place, const char* key) {
+    tell(c, place, std::string("'") + key + "' is of surfaces, and all cells are always spheres",
+         "the contact of spheres is that of `cbm`");
+  };
+  if (is_changed(d.points, "3")) warn(d.points.place, "points");
+  if (is_changed(d.repulsion, "100 kPa/um")) warn(d.repulsion.place, "repulsion");
+}
+
+void check_marks(BuildContext& c) {
+  for (auto& [name, place, mark] : c.draft.marks)
+    if (mark.touched && mark.when.given && mark.when.value == "start")
+      tell(c, mark.when.place, "mark '" + name + "' is of what touches, which is looked at in every step, whatever 'when' says",
+           "`when: always`; `touched_by: {keep: true}` keeps what was touched once");
+  for (auto& [name, place, lumen] : c.draft.lumens) {
+    if (lumen.faces.value == "seen") continue;
+    const auto warn = [&](const Given<double>& key, const char* word, const char* fallback) {
+      if (is_changed(key, fallback))
+        tell(c, key.place, std::string("'") + word + "' is of what is seen, and the cavity '" + name + "' has the faces of a mark",
+             "leave it away, or `faces: seen`");
+    };
+    warn(lumen.plain.of("reach", &Lumen::reach), "reach", "100 um");
+    warn(lumen.plain.of("renewed", &Lumen::renewed), "renewed", "5 min");
+  }
+}
+
+}  // namespace
+
+void check_unused(BuildContext& c) {
+  check_shells_that_are_none(c);
+  check_exchange(c);
+  check_contact(c);
+  check_marks(c);
+}
+
+}  // namespace morula::scenarios

@@ -1,0 +1,96 @@
+// Keys that a study gives and nothing in it reads.
+#include <gmock/gmock.h>
+
+#include "tests/study/study_fixture.h"
+
+namespace morula::scenarios::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+std::string study_of(const std::string& types, const std::string& more = "") {
+  return R"(schema: 1
+study: unused
+time: {end: 1 h, output: 1 h, checkpoint: 1 h}
+domain: {size: [100 um, 100 um, 100 um]}
+cell_types: )" +
+         types + R"(
+initial:
+  - {type: a, at: [[0 um, 0 um, 0 um]], age: birth}
+)" + more;
+}
+
+std::string warnings(const std::string& types, const std::string& more = "") { return warnings_of(study_of(types, more)); }
+
+TEST(UnusedKeys, OfShellsWhereNobodyMakesOne) {
+  EXPECT_THAT(warnings("{a: {dcm: {cortex: {tension: 0.2 mN/m, young: 1.5 kPa}}}}"),
+              AllOf(HasSubstr("(and 1 more) is of shells, and cells of 'a' are always spheres: it has no effect"), HasSubstr("warning"),
+                    HasSubstr("[E515]")));
+  EXPECT_EQ(warnings("{a: {body: sphere, dcm: {cortex: {tension: 0.2 mN/m}}}}"), "");
+  EXPECT_EQ(warnings("{a: {body: shell, dcm: {cortex: {tension: 0.2 mN/m}}}}"), "");
+  EXPECT_THAT(warnings("{a: {dcm: {cortex: {tension: 0.2 mN/m}}}}",
+                       "coupling: {regions: [{name: r, shape: sphere, center: [0 um, 0 um, 0 um], radius: 20 um}]}\n"),
+              Not(HasSubstr("no effect")));
+}
+
+TEST(UnusedKeys, OfATypeThatOthersAreLikeAreThoseOfTheOthers) {
+  const std::string base = "base: {dcm: {cortex: {tension: 0.2 mN/m}}}";
+  EXPECT_EQ(warnings("{" + base + ", a: {like: base, body: shell}}"), "");
+  const std::string twice = warnings("{" + base + ", a: {like: base}}");
+  EXPECT_THAT(twice, HasSubstr("cells of 'base' are always spheres"));
+  EXPECT_THAT(twice, Not(HasSubstr("cells of 'a' are always spheres")));
+}
+
+TEST(UnusedKeys, OfExchangeWithoutARule) {
+  EXPECT_THAT(warnings("{a: {}}", "coupling: {hold: 20 min, max_shells: 5}\n"),
+              AllOf(HasSubstr("'hold' is of rules"), HasSubstr("'max_shells' is of rules")));
+  EXPECT_THAT(warnings("{a: {}}", "coupling: {hold: 20 min, triggers: [{outside_law: 1.0}]}\n"), Not(HasSubstr("no effect")));
+}
+
+TEST(UnusedKeys, OfSurfacesWhereAllAreSpheres) {
+  EXPECT_THAT(warnings("{a: {}}", "contact: {points: 4, repulsion: 50 kPa/um}\n"),
+              AllOf(HasSubstr("'points' is of surfaces"), HasSubstr("'repulsion' is of surfaces")));
+  EXPECT_EQ(warnings("{a: {body: shell}}", "contact: {points: 4, repulsion: 50 kPa/um}\n"), "");
+}
+
+TEST(UnusedKeys, OfMarksAndCavities) {
+  const std::string plane = "geometry: {floor: {plane: {center: [0 um, 0 um, -6 um], normal: [0, 0, 1], size: 100 um}}}\n";
+  const std::string touched = "marks: {wet: {types: [a], touched_by: floor, when: ";
+  EXPECT_THAT(warnings("{a: {body: shell}}", plane + touched + "start}}\n"), HasSubstr("whatever 'when' says: it has no effect"));
+  EXPECT_EQ(warnings("{a: {body: shell}}", plane + touched + "always}}\n"), "");
+  const std::string apical =
+      "marks: {apical: {types: [a], cone: {axis: [0, 0, 1], angle: 60 deg}}}\nlumens: {gap: {center: [0 um, 0 um, 9 um], pressure: 5 Pa, ";
+  EXPECT_THAT(warnings("{a: {body: shell}}", apical + "faces: apical, reach: 30 um}}\n"), HasSubstr("'reach' is of what is seen"));
+  EXPECT_THAT(warnings("{a: {body: shell}}", apical + "reach: 30 um}}\n"), Not(HasSubstr("is of what is seen")));
+}
+
+TEST(UnusedKeys, OfCoursesThatBeginWhenTheRunHasEnded) {
+  const auto load = [](const std::string& course) {
+    return warnings("{a: {body: shell}}", "loads: {pull: {type: a, body_force: [1 nN, 0 nN, 0 nN], course: " + course + "}}\n");
+  };
+  EXPECT_THAT(load("[{time: 2 h, factor: 0}, {time: 3 h, factor: 1}]"), HasSubstr("this course begins at 2 h, and the run ends at 1 h"));
+  EXPECT_EQ(load("[{time: 0 h, factor: 0}, {time: 3 h, factor: 1}]"), "");
+}
+
+TEST(UnusedKeys, AgesBesideThePhasesOfATable) {
+  const Folder folder;
+  folder.write("cells.csv", "x [um],y [um],z [um],type,phase\n0,0,0,a,0.5\n");
+  const auto told = [&folder](const std::string& more) {
+    const auto study = read_study_text("study.yaml", R"(schema: 1
+study: unused
+time: {end: 1 h, output: 1 h, checkpoint: 1 h}
+domain: {size: [100 um, 100 um, 100 um]}
+cell_types: {a: {cycle: {}}}
+initial:
+  - {csv: cells.csv)" + more + "}\n",
+                                       folder.path());
+    return study.ok() ? study->warnings.text() : study.error().text();
+  };
+  EXPECT_THAT(told(", age: birth"), HasSubstr("'age' has no effect here: all rows of 'cells.csv' have a `phase`"));
+  EXPECT_EQ(told(""), "");
+}
+
+}  // namespace
+}  // namespace morula::scenarios::test
