@@ -38,6 +38,9 @@ Status calibrate(const CalibrateOptions& options, const Context& context) {
   omp_set_num_threads(options.threads);
   scenarios::ExperimentRequest request;
   request.folder = options.out.empty() ? fs::path("calibrations") / options.type : fs::path(options.out);
+  std::error_code ignored;
+  if (fs::exists(request.folder, ignored) && !fs::is_directory(request.folder, ignored))
+    return Error{ErrorKind::kFile, "'" + request.folder.string() + "' is no folder", "give --out a folder, or the name of a new one"};
   request.threads = options.threads;
   request.packings = !options.pairs_only;
   if (!options.budget.empty()) {

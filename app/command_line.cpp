@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <map>
 
 #include "results/build_info.h"
@@ -79,7 +80,9 @@ void add_running_verbs(CLI::App& program, Parsed& p) {
       ->type_name("ID")
       ->allow_extra_args(false);
   verb->add_option("--demote", p.run.demote, "A cell that is a sphere from the start on")->type_name("ID")->allow_extra_args(false);
-  verb->add_option("--seed", p.run.seed, "Seed of all random numbers, instead of the study's")->type_name("N");
+  verb->add_option("--seed", p.run.seed, "Seed of all random numbers, instead of the study's")
+      ->check(CLI::Range(std::uint32_t{0}, std::numeric_limits<std::uint32_t>::max()))
+      ->type_name("N");
   verb->add_flag("--dry-run", p.run.dry_run, "Check, place the cells at time 0, and say what would be done; nothing is written");
   add_limits(*verb, p.run.limits);
 

@@ -3,6 +3,7 @@
 
 #include "app/verbs.h"
 #include "app/words.h"
+#include "core/shell_word.h"
 #include "report/pictures/png.h"
 #include "report/pictures/standard_pictures.h"
 #include "report/run_plots.h"
@@ -59,7 +60,7 @@ Status plot_some(const fs::path& run, const PlotOptions& options, const Context&
   if (has("png")) MORULA_TRY(write_pictures(study, run, options.only, context, written));
   if (written.empty())
     return Error{ErrorKind::kInput, "no plot or picture has a name that begins so",
-                 "`morula plot " + run.string() + "` writes all; their names are those of the files in plots/"};
+                 "`morula plot " + shell_word(run.string()) + "` writes all; their names are those of the files in plots/"};
   context.console.result(written);
   return {};
 }

@@ -17,6 +17,7 @@
 #include "app/command_line.h"
 #include "app/verbs.h"
 #include "core/parallel/quiet_mpi.h"
+#include "core/shell_word.h"
 #include "scenarios/run/exit_code.h"
 
 namespace morula::app {
@@ -117,7 +118,7 @@ int run_program(int argc, char** argv, std::shared_ptr<const Laws> laws) {
   {
     const Comm comm(MPI_COMM_WORLD);
     std::string command = "morula";
-    for (int i = 1; i < argc; ++i) command += std::string(" ") + argv[i];
+    for (int i = 1; i < argc; ++i) command += " " + shell_word(argv[i]);
     const Context context{comm, Console(comm.is_root()), std::move(command), std::move(laws)};
     code = guarded(std::vector<std::string>(argv + 1, argv + argc), context);
     code = static_cast<int>(comm.max(std::int64_t{code}));  // all ranks end alike

@@ -5,6 +5,7 @@
 
 #include "app/words.h"
 #include "core/numbers/number_text.h"
+#include "core/shell_word.h"
 
 namespace morula::app {
 namespace {
@@ -76,7 +77,8 @@ void RunDisplay::end(const scenarios::RunSummary& summary) {
   const std::string where = scenarios::time_text(state.time) + " in " + scenarios::duration_text(summary.wall_time) + " · " +
                             count_words(state.cells, "cell", "cells");
   if (summary.stopped) {
-    console_.message("stopped at " + where + ", with a checkpoint\n  go on with `morula resume " + summary.path.string() + until_ + "`\n");
+    console_.message("stopped at " + where + ", with a checkpoint\n  go on with `morula resume " + shell_word(summary.path.string()) +
+                     until_ + "`\n");
   } else {
     std::string line = "done   " + where;
     if (!summary.verdicts.empty()) line += summary.passed ? " · checks passed" : " · checks FAILED";

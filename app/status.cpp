@@ -4,6 +4,7 @@
 #include "app/verbs.h"
 #include "app/words.h"
 #include "core/numbers/number_text.h"
+#include "core/shell_word.h"
 #include "results/run_folder.h"
 #include "scenarios/run/progress.h"
 
@@ -27,7 +28,7 @@ std::string status_text(const RunOverview& run) {
   out += "\n  as of  " + status.updated + "\n";
   if (!run.record.message.empty()) out += "  why    " + run.record.message + "\n";
   if (run.lost || status.state == RunState::kStopped)
-    out += "  next   morula resume " + run.path.string() + " --until " + number_text("%.15g", status.end) + "s\n";
+    out += "  next   morula resume " + shell_word(run.path.string()) + " --until " + number_text("%.15g", status.end) + "s\n";
   return out;
 }
 

@@ -60,10 +60,13 @@ std::vector<CellVariable> cell_variables(const Model& model) {
   return out;
 }
 
-int trait_variable(const Model& model, Trait trait) {
-  if (!any_varies(model, trait)) return -1;
+void number_trait_variables(Model& model) {
   const std::vector<CellVariable> all = cell_variables(model);
-  return static_cast<int>(std::ranges::find(all, name_of(trait), &CellVariable::name) - all.begin());
+  for (const Trait trait : kTraits) {
+    const auto found = std::ranges::find(all, name_of(trait), &CellVariable::name);
+    const int number = found == all.end() ? -1 : static_cast<int>(found - all.begin());
+    for (CellType& type : model.types) type.traits.variable[number_of(trait)] = number;
+  }
 }
 
 }  // namespace morula

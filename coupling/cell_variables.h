@@ -58,8 +58,9 @@ inline constexpr std::size_t kMeshRenewals = 5;
 constexpr std::size_t cycle_variables_of(std::size_t fields) { return 2 * fields; }
 inline constexpr const char* kPhaseVariable = "cycle/phase";
 
-/// Number of the variable that tells how far a cell is from its type in a trait, as a part ("tension/deviation"); −1 where no type varies in it.
-int trait_variable(const Model& model, Trait trait);
+/// Tells the types of a model which variables say how far a cell is from its type in a trait, as a part ("tension/deviation"). After all that
+/// cell_variables() looks at is there, and again where any of it has gone.
+void number_trait_variables(Model& model);
 
 /// All variables of the cells of a model, by number: two for each field, three for the phases of the cycle where there are any, those of the
 /// renewal of meshes where a type has it, those of its behaviours, "<behaviour>/<variable>", and one for each trait in which a type varies.

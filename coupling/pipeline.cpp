@@ -34,8 +34,12 @@ double end_of_step(double dt, double time, double land_on) {
   return std::abs(end - land_on) < 1e-9 * std::max(1.0, land_on) ? land_on : end;
 }
 
+bool is_fluid(const CellType& type) { return !dcm::has_elastic_surface(type.shell); }
+
 /// Why no step size works: cell, law and time.
-Error refused(const Model& model, const Clock& clock, const StepFault& fault, double dt) {
+Error refused(const Model& model, const Tissue& tissue, const StepFault& fault, double dt) {
+  const Clock& clock = tissue.clock;
+  const bool both_bodies = model.swaps.any() || (tissue.spheres.size() > 0 && tissue.shells.size() > 0);
   char when[64];
   const bool early = clock.time < 3600.0;  // seconds say more than 2.981e-05 h
   std::snprintf(when, sizeof when, early ? " at %.4g s" : " at %.6g h", early ? clock.time : clock.time / 3600.0);
@@ -43,6 +47,9 @@ Error refused(const Model& model, const Clock& clock, const StepFault& fault, do
           "the step was cut to " + std::to_string(dt) + " s without success; " +
               (clock.capped && model.step.start_cap > 0.0 ? "`numerics: {start_cap: auto}` or a smaller cap, " : "") +
               (model.loads.empty() ? "" : "smaller loads, or loads that grow slowly (`course`), ") +
+              (both_bodies && std::ranges::any_of(model.types, is_fluid)
+                   ? "an elastic cortex (`elastic: springs`) where shells are pressed among spheres, "
+                   : "") +
               "weaker adhesion, more tension, `self_contact` where cells are pressed thin, a larger `shape_stiffness` or `fold_barrier`, "
               "or another number of nodes may help"};
 }
@@ -136,7 +143,7 @@ Result<StepOutcome> Simulation::whole_step(const StepPlan& plan, const std::func
     before_step_.restore(tissue_);
     carry_to(clock.time);
     mechanics_->parameters_changed();
-    if (!moved.error().smaller_step_may_help || dt * 0.25 < kSmallestStep) return refused(model_, clock, moved.error(), dt);
+    if (!moved.error().smaller_step_may_help || dt * 0.25 < kSmallestStep) return refused(model_, tissue_, moved.error(), dt);
     dt *= outcome.retries < 2 ? 0.5 : 0.25;
   }
   tissue_.ledger.drift += outcome.mechanics.motion.drift;

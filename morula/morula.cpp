@@ -6,7 +6,9 @@
 
 #include "coupling/simulation.h"
 #include "results/build_info.h"
+#include "results/hdf5_reader.h"
 #include "results/observables/local_snapshot.h"
+#include "results/snapshot_columns.h"
 #include "results/snapshot_file.h"
 #include "results/state_hash.h"
 #include "scenarios/run/run_loop.h"
@@ -139,12 +141,15 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
 
 Result<Simulation> Simulation::create(const Study& study, int threads) {
+  constexpr int kMostThreads = 1024;
+  if (threads < 1 || threads > kMostThreads)
+    return Error{ErrorKind::kInput, std::to_string(threads) + " threads are asked for", "from 1 to " + std::to_string(kMostThreads)};
   auto content = std::make_unique<Content>();
   content->study = study.content_;
   ShapeLibrary shapes;
   MORULA_TRY_ASSIGN(scenarios::InitialTissue initial, scenarios::make_tissue(content->study->study, shapes, Comm()));
   MORULA_TRY_ASSIGN(content->simulation,
-                    morula::Simulation::create(content->study->study.model, std::move(initial.tissue), Comm(), std::max(1, threads)));
+                    morula::Simulation::create(content->study->study.model, std::move(initial.tissue), Comm(), threads));
   MORULA_TRY(content->simulation->first_swaps());
   return Simulation(std::move(content));
 }
@@ -162,6 +167,7 @@ Result<Step> Simulation::step() {
 }
 
 Status Simulation::advance_to(double time) {
+  if (std::isnan(time)) return Error{ErrorKind::kInput, "the time to advance to is not a number", "a time in seconds"};
   while (this->time() < time && !done()) MORULA_TRY(step());
   return {};
 }
@@ -170,7 +176,23 @@ std::span<const Cell> Simulation::cells() const { return content_->shown().cells
 std::span<const Surface> Simulation::surfaces() const { return content_->shown().surfaces; }
 std::string Simulation::state_hash() const { return scenarios::state_hash(content_->simulation->tissue(), Comm()).hex(); }
 
+namespace {
+
+/// Whether a file of snapshots is new, or has those of this study; kInput if not.
+Status is_of_study(const std::filesystem::path& file, const scenarios::Study& study) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) return {};
+  MORULA_TRY_ASSIGN(const scenarios::Hdf5Reader there, scenarios::Hdf5Reader::open(file));
+  MORULA_TRY_ASSIGN(const std::string resolved, there.text(scenarios::results::kResolvedStudy.path));
+  if (resolved == study.resolved_text) return {};
+  return Error{ErrorKind::kInput, "'" + file.string() + "' has snapshots of another study ('" + there.root_text("study") + "')",
+               "give a file of its own to every study, and to every seed"};
+}
+
+}  // namespace
+
 Status Simulation::write_snapshot(const std::filesystem::path& file) const {
+  MORULA_TRY(is_of_study(file, content_->study->study));
   MORULA_TRY(scenarios::begin_results(file, scenarios::results_head(content_->study->study), Comm()));
   return scenarios::append_snapshot(file, content_->present(), content_->simulation->tissue().fields, Comm());
 }

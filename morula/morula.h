@@ -96,7 +96,7 @@ struct Step {
 /// A tissue that is stepped through time. The steps are those of `morula run`: the same study ends in the same bits.
 class Simulation {
  public:
-  /// The tissue at time 0, on this number of threads. Errors: cells that cannot be placed.
+  /// The tissue at time 0, on this number of threads, 1 to 1024. Errors: another number, cells that cannot be placed.
   static Result<Simulation> create(const Study& study, int threads = 1);
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
@@ -120,7 +120,7 @@ class Simulation {
   [[nodiscard]] std::string state_hash() const;
 
   /// Add this moment to an HDF5 file as `morula run` writes it (docs/formats.md); the file is made where there is none. Snapshots at this time or later
-  /// that the file has are replaced.
+  /// that the file has are replaced. Errors: a file of another study (its resolved text differs).
   Status write_snapshot(const std::filesystem::path& file) const;
 
  private:

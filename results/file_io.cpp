@@ -25,7 +25,7 @@ Error file_error(const fs::path& path, std::string_view doing, int error_number)
   if (no_room)
     error.help = "free some disk space (or raise the quota or file size limit) and resume the run";
   else if (error_number == EACCES || error_number == EPERM || error_number == EROFS)
-    error.help = "choose a folder you may write to with --out";
+    error.help = "its permissions do not allow it: change them, or use another folder (most commands that write one take --out)";
   return error;
 }
 

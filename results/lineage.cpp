@@ -133,8 +133,8 @@ std::string lineage_csv(std::span<const CellLife> lives) {
   const auto known = [](double volume) { return volume > 0.0 ? shortest_text(volume) : std::string(); };
   std::string out = "id,parent,type,birth [s],end [s],how,birth volume [um^3],division volume [um^3]\n";
   for (const CellLife& life : lives)
-    out += life.id + ',' + life.parent + ',' + csv_field(life.type) + ',' + shortest_text(life.birth) + ',' + shortest_text(life.end) +
-           ',' + word_of(life.how) + ',' + known(life.birth_volume) + ',' + known(life.division_volume) + '\n';
+    out += life.id + ',' + (life.parent.empty() ? "0" : life.parent) + ',' + csv_field(life.type) + ',' + shortest_text(life.birth) + ',' +
+           shortest_text(life.end) + ',' + word_of(life.how) + ',' + known(life.birth_volume) + ',' + known(life.division_volume) + '\n';
   return out;
 }
 

@@ -11,6 +11,7 @@
 #include <functional>
 
 #include "core/numbers/number_text.h"
+#include "core/shell_word.h"
 #include "results/file_io.h"
 
 namespace morula::scenarios {
@@ -59,7 +60,7 @@ Result<fs::path> make_run(const fs::path& parent, const fs::path& out, const std
     if (::mkdir(clean.c_str(), 0755) == 0) return clean;
     if (errno == EEXIST)
       return Error{ErrorKind::kFile, "'" + clean.string() + "' exists already, and a run never overwrites anything",
-                   "give --out another name, or go on with `morula resume " + clean.string() + "`"};
+                   "give --out another name, or go on with `morula resume " + shell_word(clean.string()) + "`"};
     return file_error(clean, "create folder", errno);
   }
   MORULA_TRY(make_parents(parent));

@@ -179,7 +179,7 @@ std::string to_json(const RunStatus& s) {
   const Json json{{"state", name_of(s.state)},
                   {"time_s", number(s.time)},
                   {"end_s", number(s.end)},
-                  {"fraction", number(s.end > 0 ? s.time / s.end : 0.0)},
+                  {"fraction", number(s.end > 0 ? std::min(1.0, s.time / s.end) : 0.0)},
                   {"cells", s.cells},
                   {"shells", s.shells},
                   {"steps", s.steps},

@@ -15,6 +15,12 @@ struct BuildContext {
   Diagnostics& diagnostics;
   std::filesystem::path folder;  ///< of the study, for relative paths
   const ReadOptions& options;
+  std::filesystem::path shown_folder;  ///< the same as the user wrote it, for messages; empty: the study is no file
+
+  /// A path of the study as messages name it, so that the place can be opened from where the program was started.
+  [[nodiscard]] std::string shown(const std::string& written) const {
+    return std::filesystem::path(written).is_relative() ? (shown_folder / written).lexically_normal().string() : written;
+  }
 };
 
 void build_time_and_numerics(BuildContext& context);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <optional>
+#include <set>
 
 #include "coupling/regions/outside_law.h"
 #include "coupling/regions/region.h"
@@ -246,6 +247,23 @@ void build_region(BuildContext& c, draft::Region& r, const Place& place) {
   c.study.model.swaps.regions.push_back(std::move(region));
 }
 
+/// A region that names more cells than there may be shells, where nothing else decides who is one.
+void warn_of_cells_left_out(BuildContext& c, const draft::Region& region, const Place& place) {
+  const std::uint64_t most = c.study.model.swaps.max_shells;
+  const auto is_shell = [](const auto& one) { return one.content.body.value == "shell"; };
+  const auto is_sphere = [](const auto& one) { return one.content.body.value == "sphere"; };
+  if (std::ranges::any_of(c.draft.cell_types, is_shell) || std::ranges::any_of(c.draft.initial, is_shell) ||
+      std::ranges::any_of(c.draft.coupling.regions, is_sphere))
+    return;
+  std::set<std::string> named;
+  for (const auto& [key, ids] : region.own.lists) named.insert(ids.value.begin(), ids.value.end());
+  if (named.size() <= most) return;
+  c.diagnostics.warning(694, place,
+                        "region '" + region.name.value + "' names " + std::to_string(named.size()) + " cells, and `max_shells` allows " +
+                            std::to_string(most) + " shells: the others stay spheres",
+                        "a larger `coupling.max_shells`");
+}
+
 }  // namespace
 
 void build_coupling(BuildContext& c) {
@@ -253,7 +271,10 @@ void build_coupling(BuildContext& c) {
   draft::Coupling& coupling = c.draft.coupling;
   coupling.swaps.write_to(c.study.model.swaps);
   c.study.model.swaps.gradual = coupling.exchange.value == "gradual";
-  for (auto& [name, place, region] : coupling.regions) build_region(c, region, place);
+  for (auto& [name, place, region] : coupling.regions) {
+    build_region(c, region, place);
+    warn_of_cells_left_out(c, region, place);
+  }
   for (const auto& [name, place, trigger] : coupling.triggers) build_trigger(c, units, trigger, place);
 }
 

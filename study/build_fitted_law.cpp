@@ -59,7 +59,7 @@ std::optional<FittedLaw> file_of(BuildContext& c, draft::CellType& t) {
   }
   const std::string shown = t.sphere_file.value;
   const std::string path = add_input_file(c, t.sphere_file);
-  return read_fitted_law(path, shown, t.sphere_file.place, *c.options.laws, c.diagnostics);
+  return read_fitted_law(path, c.shown(shown), t.sphere_file.place, *c.options.laws, c.diagnostics);
 }
 
 void use_table(const FittedLaw& fitted, draft::CellType& t, BuildContext& c, cbm::SphereParameters& sphere) {

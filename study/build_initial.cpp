@@ -150,12 +150,13 @@ class InitialBuilder {
     cells.csv_path = add_input_file(c_, d.csv);
     std::vector<std::string> names;
     for (const auto& type : c_.draft.cell_types) names.push_back(type.name);
-    const auto csv = read_cells_csv(cells.csv_path, shown, names, d.csv.place, units_, c_.diagnostics, cells.csv_unit);
+    const auto csv = read_cells_csv(cells.csv_path, c_.shown(shown), names, d.csv.place, units_, c_.diagnostics, cells.csv_unit);
     if (!csv) return;
     if (d.units.known() && !csv->common_unit_used)
       c_.diagnostics.error(515, d.units.place, "'units' has no effect here: all columns of '" + shown + "' have a unit of their own",
                            "leave it away, or take the units out of the header");
     cells.count = csv->cells.size();
+    d.csv_has_shells = std::ranges::any_of(csv->cells, [](const CsvCell& cell) { return cell.body == BodyKind::kShell; });
     if (d.age.given && d.age.value == "birth" && std::ranges::all_of(csv->cells, [](const CsvCell& cell) { return cell.phase >= 0.0; }))
       c_.diagnostics.warning(515, d.age.place, "'age' has no effect here: all rows of '" + shown + "' have a `phase`",
                              "leave it away, or take the column out");

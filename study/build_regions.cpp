@@ -67,7 +67,8 @@ FaceMark rule_of(BuildContext& c, const std::string& name, const Place& place, c
 
 void build_marks(BuildContext& c) {
   int bit = 0;
-  for (const auto& [name, place, m] : c.draft.marks) {
+  for (auto& [name, place, m] : c.draft.marks) {
+    if (m.touched && !m.when.given) m.when.text.clear();  // no meaning: not part of the resolved study
     FaceMark rule = rule_of(c, name, place, m);
     rule.mark = bit++;
     for (const std::string& type_name : m.types.value) {
@@ -248,6 +249,7 @@ std::vector<std::size_t> origins_of(const draft::Study& d, std::size_t type) {
 bool may_be_shell(const BuildContext& c, std::size_t type) {
   const draft::Study& d = c.draft;
   if (!d.coupling.triggers.empty()) return true;
+  if (std::ranges::any_of(d.initial, [](const auto& block) { return block.content.csv_has_shells; })) return true;
   for (const auto& region : d.coupling.regions)
     if (region.content.body.value == "shell") return true;
   for (const std::size_t origin : origins_of(d, type)) {

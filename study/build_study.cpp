@@ -65,14 +65,14 @@ double skin_of(const BuildContext& c) {
 void build_time_and_numerics(BuildContext& c) {
   const draft::Time& time = c.draft.time;
   c.study.time = {time.end.value, time.output.value, time.checkpoint.value, c.draft.numerics.start_cap_within.value, time.rest.value};
-  const auto check_interval = [&](const Given<double>& interval, const char* what) {
-    if (interval.given && interval.known() && time.end.known() && interval.value > time.end.value)
+  const auto check_interval = [&](const Given<double>& interval, const char* what, const char* fallback) {
+    if (is_changed(interval, fallback) && interval.known() && time.end.known() && interval.value > time.end.value)
       c.diagnostics.warning(508, interval.place,
                             std::string("the ") + what + " interval (" + interval.text + ") is longer than the run (" + time.end.text + ")",
                             std::string("make `") + what + "` at most `end`");
   };
-  check_interval(time.output, "output");
-  check_interval(time.checkpoint, "checkpoint");
+  check_interval(time.output, "output", "1 h");
+  check_interval(time.checkpoint, "checkpoint", "6 h");
 
   draft::Numerics& n = c.draft.numerics;
   StepControl& step = c.study.model.step;
@@ -203,7 +203,7 @@ bool may_have_shells(const draft::Study& study) {
   for (const auto& type : study.cell_types)
     if (type.content.body.value == "shell") return true;
   for (const auto& initial : study.initial)
-    if (initial.content.body.value == "shell" || initial.content.has_meshes) return true;
+    if (initial.content.body.value == "shell" || initial.content.has_meshes || initial.content.csv_has_shells) return true;
   for (const auto& region : study.coupling.regions)
     if (region.content.body.value == "shell") return true;
   return !study.coupling.triggers.empty();

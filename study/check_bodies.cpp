@@ -170,6 +170,24 @@ void check_water_of_bodies(BuildContext& c) {
   }
 }
 
+/// Spheres have no spin: with as much friction along their contacts as across they stay where they first touched, and what grows becomes a bush.
+void note_spheres_that_do_not_roll(BuildContext& c) {
+  constexpr double kMuch = 1.0;   // [nN s/µm³], a fiftieth of the default
+  constexpr double kAlong = 0.1;  // of the friction across: laws that were fitted to shells have less
+  for (std::size_t i = 0; i < c.draft.cell_types.size(); ++i) {
+    const auto& [name, place, t] = c.draft.cell_types[i];
+    const CellType& type = c.study.model.types[i];
+    const ContactPair& pair = c.study.model.pair(i, i);
+    const bool rolls = pair.tangential_friction < std::max(kMuch, kAlong * pair.normal_friction) || has_fitted_law(c, i) ||
+                       type.fluctuations.energy > 0.0 || type.migration.acts();
+    if (rolls || !may_divide(c, i) || !may_be_sphere(c, i)) continue;
+    c.study.notes.push_back(
+        "spheres of '" + name +
+        "' divide and rub as much along their contacts as across: they do not roll over each other, and a cluster that grows from "
+        "few cells branches (README of the study `spheroid`). `friction: {cell_cell_tangential: 0 N s/m^3}` or a fitted law lets them");
+  }
+}
+
 /// Steps are chosen by ways on the scale of the range of contact, which is nothing to a cell of usual size and much to a small one.
 void check_ways_of_spheres(BuildContext& c) {
   constexpr double kMuch = 0.5;  // of the radius, in one step
@@ -198,6 +216,7 @@ void check_bodies(BuildContext& c) {
   check_jkr_range(c);
   check_rest_of_bodies(c);
   check_water_of_bodies(c);
+  note_spheres_that_do_not_roll(c);
   check_ways_of_spheres(c);
 }
 

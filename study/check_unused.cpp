@@ -18,7 +18,11 @@ void tell(BuildContext& c, const Place& place, const std::string& what, const st
 void check_shells_that_are_none(BuildContext& c) {
   using Spot = std::tuple<const SourceText*, int, int>;
   const auto spot = [](const Place& place) { return Spot{place.source.get(), place.line, place.column}; };
-  const auto keys = [&c](draft::CellType& type) { return keys_given(*c.options.laws, [&type](Section& s) { declare_shell(s, type); }); };
+  const auto keys = [&c](draft::CellType& type) {
+    auto out = keys_written_in(*c.options.laws, [&type](Section& s) { declare_shell(s, type); });
+    std::erase_if(out, [](const GivenKey& key) { return key.path == "bulk_modulus"; });  // modulus and packing of spheres follow from it
+    return out;
+  };
   const bool has_meshes = std::ranges::any_of(c.draft.initial, [](const auto& block) { return block.content.has_meshes; });
   if (has_meshes || !c.options.fitted_laws) return;  // cells of meshes are shells; a type that is being fitted is looked at as both bodies
   std::set<Spot> used;
@@ -43,7 +47,7 @@ void check_shells_that_are_none(BuildContext& c) {
 /// What belongs to rules of exchange, where there is none.
 void check_exchange(BuildContext& c) {
   draft::Coupling& d = c.draft.coupling;
-  if (!d.regions.empty() || !d.triggers.empty()) return;
+  if (c.study.model.swaps.any()) return;
   const Given<double>& hold = d.swaps.of("hold", &Swaps::hold);
   const Given<std::uint64_t>& most = d.swaps.of("max_shells", &Swaps::max_shells);
   const auto warn = [&c](const Place& place, const char* key) {

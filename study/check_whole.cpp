@@ -95,21 +95,37 @@ void check_nuclei(BuildContext& c) {
 
 void check_periodic_size(BuildContext& c) {
   if (!c.draft.domain.size.known() || !c.draft.contact.range.known()) return;
-  double radius = 0.0;
+  constexpr double kPressed =
+      1.25;  // half the length of a shell that others press, over its radius (shells of mixed sizes at 0.88 of their volume)
+  double radius = 0.0, reach = 0.0;
   // A dividing cell is 2^(1/3) times as wide as a newborn; a pair of such cells may not meet around the domain.
-  for (const auto& [name, place, type] : c.draft.cell_types)
-    radius = std::max(radius, (type.has_cycle ? std::cbrt(2.0) : 1.0) * type.radius.mean.value * (1.0 + 3.0 * type.radius.spread.value));
+  for (std::size_t t = 0; t < c.draft.cell_types.size(); ++t) {
+    const draft::CellType& type = c.draft.cell_types[t].content;
+    const double one = (type.has_cycle ? std::cbrt(2.0) : 1.0) * type.radius.mean.value * (1.0 + 3.0 * type.radius.spread.value);
+    radius = std::max(radius, one);
+    reach = std::max(reach, (may_be_shell(c, t) ? kPressed : 1.0) * one);
+  }
   double range = c.draft.contact.range.value;
   for (const auto& pair : c.draft.contact.pairs) range = std::max(range, pair.content.range.value);
   double smallest = 1.0;  // edge of the box at its smallest, in parts of that of time 0
   for (const double volume : c.study.model.box_volume.value) smallest = std::min(smallest, std::cbrt(volume));
-  const double needed = 2.0 * (2.0 * radius + range) / smallest;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    if (c.study.model.space.periodic(static_cast<int>(axis)) && c.draft.domain.size.value[axis] < needed)
-      c.diagnostics.error(
+  const double needed = 2.0 * (2.0 * radius + range) / smallest, safe = 2.0 * (2.0 * reach + range) / smallest;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double size = c.draft.domain.size.value[axis];
+    if (!c.study.model.space.periodic(static_cast<int>(axis)) || size >= safe) continue;
+    const std::string where = std::string("along ") + "xyz"[axis];
+    if (size < needed)
+      c.diagnostics.error(511, c.draft.domain.size.place,
+                          "the domain is too small " + where + ": with periodic faces a cell would touch its own image",
+                          "at least " + short_number(std::ceil(needed)) + " um, or a `wall`");
+    else
+      c.diagnostics.warning(
           511, c.draft.domain.size.place,
-          std::string("the domain is too small along ") + "xyz"[axis] + ": with periodic faces a cell would touch its own image",
-          "at least " + short_number(std::ceil(needed)) + " um, or a `wall`");
+          "the domain is small " + where +
+              ": shells that are pressed are longer than balls, and two that meet on both sides of a periodic face touch in one "
+              "place only, with steps and overlaps that jump",
+          "at least " + short_number(std::ceil(safe)) + " um where shells press each other");
+  }
 }
 
 /// An obstacle as long as the domain, or one that cells live in, has no images (for_images()): cells that cross a periodic face leave it.

@@ -96,7 +96,7 @@ void declare_nucleus(Section& n, draft::Nucleus& nucleus) {
   const bool is_shell = nucleus.kind.value != "rigid" && nucleus.kind.value != "none";
   draft::ShellKeys unused;
   declare_shell_keys(n, is_shell ? nucleus.shell : unused, nullptr);
-  for (const GivenKey& key : keys_given(n.laws(), [&unused](Section& shell) { declare_shell_keys(shell, unused, nullptr); }))
+  for (const GivenKey& key : keys_written_in(n.laws(), [&unused](Section& shell) { declare_shell_keys(shell, unused, nullptr); }))
     nucleus.no_effect.push_back({key.path.substr(key.path.rfind('.') + 1), key.place, true});
 }
 

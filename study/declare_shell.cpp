@@ -47,13 +47,18 @@ void own_keys(Section& s, Of of, draft::Layer& t, std::vector<std::string> there
 
 void declare_cortex(Section& c, draft::ShellKeys& t, draft::CellType* cell) {
   const bool nucleus = cell == nullptr;
-  c.word({.name = "elastic",
-          .doc = "Elasticity in the plane. " + told(c, Of::kElastic, false) + "none: a fluid.",
-          .fallback = "springs",
-          .words = names(c, Of::kElastic, false),
-          .example = "neo_hooke",
-          .source = "Van Liedekerke et al."},
-         t.elastic);
+  c.word(
+      {.name = "elastic",
+       .doc = "Elasticity in the plane. " + told(c, Of::kElastic, false) + "none: a fluid" +
+              (nucleus
+                   ? "."
+                   : ", which beside spheres flows into the gaps between them where it is pressed with more than some 13 tensions over the "
+                     "radius."),
+       .fallback = "springs",
+       .words = names(c, Of::kElastic, false),
+       .example = "neo_hooke",
+       .source = "Van Liedekerke et al."},
+      t.elastic);
   c.quantity(young(nucleus), t.young);
   c.quantity(keys::thickness(), t.thickness);
   c.quantity(keys::poisson(), t.poisson);

@@ -79,15 +79,18 @@ constexpr ErrorCode kCodes[] = {
      "With W >= 2 tension two free surfaces spread on each other without limit; only the elasticity of the cortex stops them, and the "
      "contact angle is its own (warning). A cortex with `elastic: none` has no equilibrium (error)."},
     {510, "values that contradict each other", "Two places of the study say different things about one quantity."},
-    {511, "domain too small", "With periodic faces a cell would touch its own image."},
+    {511, "domain too small",
+     "With periodic faces a cell would touch its own image, or a pressed shell the same neighbour on both sides. Of two cells the nearest "
+     "images meet."},
     {512, "field cannot be resolved", "The voxel size gives too many or too few voxels."},
     {513, "elasticity of the area counted twice",
      "Two laws of one shell resist changes of its area. Their moduli add: say `area: {on_top: true}` where that is meant."},
     {514, "Poisson ratio outside the law",
      "A net of springs with an area modulus has a Poisson ratio of at least 1/3: below, the area modulus would be negative."},
     {515, "key without effect",
-     "The key belongs to another law than the one that is chosen, or to bodies that no cell has (warning); it would be read and left "
-     "aside."},
+     "The key belongs to another law than the one that is chosen, to bodies that no cell has, or to rules that are not there (warnings); "
+     "it would be "
+     "read and left aside."},
     {516, "law without its numbers", "The law that is chosen needs a number that has no default."},
     {517, "surfaces that sink into each other",
      "The repulsion is so soft that the pressure within the cells pushes their surfaces through each other (warning)."},
@@ -259,17 +262,18 @@ constexpr ErrorCode kCodes[] = {
     {691, "what this build of the program lacks",
      "Remeshing uses CGAL's mesh processing, which is under GPL-3-or-later, and with it the program as a whole. A build with "
      "MORULA_WITH_GPL=OFF leaves it out; cells from files keep their nodes then."},
-    {692, "two laws of one name",
-     "A program with laws of its own has added one under a name that is there already. The study could not say which of them it means."},
+    {692, "law that cannot be used",
+     "A program with laws of its own has added one under a name that is there already, so that a study could not say which of them it "
+     "means; or one "
+     "without a function that its kind must have; or a column of series.csv whose name would break its header."},
     {693, "fitted law that was changed",
      "A file that `morula calibrate` made says by its `checksum` what it was like. Somebody has changed it since: what it says about its "
      "own error and range "
      "may not hold. A file without a `checksum` is taken as it is."},
     {694, "rule that nobody meets",
-     "A trigger compares with what no cell can have (a share of a surface above 2, an age below 0), or with what all have, or a region or "
-     "cavity "
-     "begins "
-     "when the run has ended."},
+     "A trigger compares with what no cell can have (a share of a surface above 2, an age below 0), or with what all have; a region, "
+     "cavity or "
+     "course begins when the run has ended; a region names more cells than `max_shells` lets be shells."},
     {695, "tension in contact of a fluid cortex",
      "A fluid bears no difference of tension along its surface: surfaces adhere by what contact takes from their tension, W + 2 (γ − "
      "γ_lateral) in place of W, "

@@ -49,7 +49,7 @@ class FindGiven final : public Section {
 
 }  // namespace
 
-std::vector<GivenKey> keys_given(const Laws& laws, const std::function<void(Section&)>& describe) {
+std::vector<GivenKey> keys_written_in(const Laws& laws, const std::function<void(Section&)>& describe) {
   std::vector<GivenKey> out;
   FindGiven section(laws, "", out);
   describe(section);

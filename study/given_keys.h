@@ -14,6 +14,6 @@ struct GivenKey {
 };
 
 /// The keys of a section that the study gives, in the order of their declaration, which `describe` makes.
-std::vector<GivenKey> keys_given(const Laws& laws, const std::function<void(Section&)>& describe);
+std::vector<GivenKey> keys_written_in(const Laws& laws, const std::function<void(Section&)>& describe);
 
 }  // namespace morula::scenarios

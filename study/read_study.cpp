@@ -3,7 +3,7 @@
 #include "study/catalogue.h"
 #include "study/declare.h"
 #include "study/document.h"
-#include "study/law_names.h"
+#include "study/law_faults.h"
 #include "study/read_section.h"
 #include "study/study.h"
 #include "study/write_section.h"
@@ -26,10 +26,10 @@ void build(BuildContext& context) {
   build_domain(context);
   build_cell_types(context);
   build_geometry(context);
+  build_initial(context);  // a table of cells says of some that they are shells
   build_pairs(context);
   build_contact_pairs(context);
   build_fields(context);
-  build_initial(context);
   build_coupling(context);
   build_time_and_numerics(context);
   build_activity(context);
@@ -37,8 +37,7 @@ void build(BuildContext& context) {
   build_adhesion_regions(context);
   build_loads(context);
   build_tolerance(context);
-  for (CellType& type : context.study.model.types)
-    for (const Trait trait : kTraits) type.traits.variable[number_of(trait)] = trait_variable(context.study.model, trait);
+  number_trait_variables(context.study.model);
   check_whole(context);
   Study& study = context.study;
   const draft::Study& draft = context.draft;
@@ -51,17 +50,18 @@ void build(BuildContext& context) {
 }
 
 Result<Study, Diagnostics> read_source(const std::shared_ptr<const SourceText>& source, const std::filesystem::path& folder,
-                                       const ReadOptions& options, Diagnostics diagnostics) {
+                                       const std::filesystem::path& shown_folder, const ReadOptions& options, Diagnostics diagnostics) {
   Node document = parse_document(source, diagnostics, options.judge_places ? kMaxNodes : kResolvedGrows * kMaxNodes);
   if (document.kind == Node::Kind::kNull) return diagnostics;  // what could not be parsed has been told
   if (document.kind != Node::Kind::kMap) {
     diagnostics.error(104, document.place, "a study is a map (`key: value`)", "`morula new` writes one to start from");
     return diagnostics;
   }
-  if (const std::vector<std::string> twice = names_twice(*options.laws); !twice.empty()) {
-    for (const std::string& name : twice)
-      diagnostics.error(692, document.place, "two laws have one name: " + name, "give the law of this program another one");
-    return diagnostics;
+  if (options.laws != builtin_laws()) {
+    const std::vector<std::string> faults = law_faults(*options.laws);
+    for (const std::string& fault : faults)
+      diagnostics.error(692, document.place, "this program brings laws that cannot be used: " + fault, "its author can mend it");
+    if (!faults.empty()) return diagnostics;
   }
   draft::Study draft;
   if (document.cut_off) {  // the mistakes in what was read are told; what it means together cannot be judged
@@ -76,7 +76,7 @@ Result<Study, Diagnostics> read_source(const std::shared_ptr<const SourceText>& 
   Study study;
   study.laws = options.laws;
   read_draft(document, source, *options.laws, draft, diagnostics);
-  BuildContext context{draft, study, diagnostics, folder, options};
+  BuildContext context{draft, study, diagnostics, folder, options, shown_folder};
   build(context);
   if (options.check_criteria && !diagnostics.has_errors()) options.check_criteria(study, diagnostics);
   study.resolved_text = write_study(draft, *options.laws);
@@ -98,12 +98,12 @@ Result<Study, Diagnostics> read_study(const std::filesystem::path& path, const R
   const auto source = read_text_file(path, path.string(), most, {}, diagnostics);
   if (!source) return diagnostics;
   std::error_code ignored;
-  return read_source(source, std::filesystem::absolute(path, ignored).parent_path(), options, std::move(diagnostics));
+  return read_source(source, std::filesystem::absolute(path, ignored).parent_path(), path.parent_path(), options, std::move(diagnostics));
 }
 
 Result<Study, Diagnostics> read_study_text(const std::string& shown_name, const std::string& text, const std::filesystem::path& folder,
                                            const ReadOptions& options) {
-  return read_source(std::make_shared<const SourceText>(shown_name, text), folder, options, {});
+  return read_source(std::make_shared<const SourceText>(shown_name, text), folder, {}, options, {});
 }
 
 }  // namespace morula::scenarios

@@ -27,6 +27,23 @@ Extreme over_ranks(const Extreme& mine, const Comm& comm) {
   return out;
 }
 
+/// Longest edge over the mean one, of the shell of this rank that has most of it and no elasticity that would hold its surface together.
+Extreme most_drawn_out(const Model& model, const Tissue& tissue) {
+  Extreme out;
+  for (const BodyOfRow& body : bodies_of(tissue.cells)) {
+    const CellRow& row = tissue.cells.rows[body.row];
+    if (!body.is_shell || dcm::has_elastic_surface(model.types[row.type].shell)) continue;
+    const std::span<const Vec3d> x = tissue.shells.nodes(body.number);
+    double longest = 0.0, sum = 0.0;
+    for (const Edge& edge : tissue.shells.topology(body.number).edges()) {
+      const double length = norm(x[edge.j] - x[edge.i]);
+      longest = std::max(longest, length), sum += length;
+    }
+    out.offer(longest * static_cast<double>(tissue.shells.topology(body.number).edges().size()) / sum, row.id);
+  }
+  return out;
+}
+
 /// Volume that the cell's row, its reference_excess and its inner pressure ask for, beside the present one of a nucleus that is a shell [µm³].
 double volume_by_law(const Cells& cells, std::size_t i, const CellType& type, double inner_pressure,
                      const std::optional<NucleusState>& nucleus, bool is_newborn) {
@@ -231,6 +248,7 @@ Measures measure(Simulation& simulation) {
   comm.sum(over.sum, total);
   count_all(tissue, over, comm, out);
   out.overlap = over_ranks(deepest_overlap(simulation), comm);
+  if (out.spheres > 0 && out.shells > 0) out.drawn_out = over_ranks(most_drawn_out(model, tissue), comm);
   measure_fields(simulation, out);
   const auto is_outside = [&](const Vec3d& c) { return !model.space.box.contains(model.space.wrapped(c)); };
   if (!model.fields.empty()) out.outside_fields = comm.sum(static_cast<std::int64_t>(std::ranges::count_if(center, is_outside)));

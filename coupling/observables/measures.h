@@ -28,6 +28,7 @@ struct Measures {
   double energy = 0.0;               ///< [nN·µm]
   double nucleus_clearance = kNone;  ///< least distance of a node of a nucleus that is a shell from its cortex, < 0 outside [µm]
   Extreme overlap;                   ///< deepest penetration of a surface (not of two spheres) [µm]
+  Extreme drawn_out;                 ///< longest edge of a shell without elasticity over its mean one, where there are spheres, too; else 0
   /// |V_i − V_i^law| / V_i^law of the worst cell. V^law is built from the cell's row alone: target volume V_t and what is left of an
   /// exchange of bodies x; V_t e^x for a sphere, V_t exp(2γ/(R K_V) + x − p/K_V) for a shell of inner pressure p (dcm.md: p = −K_V ln(V/V0)).
   /// Rounding, unless growth, division or a swap lost volume on the way from the row to the body.

@@ -54,8 +54,12 @@ void widen(ColorScale& scale) {
   scale.high = std::ceil(scale.high / step - kNothing) * step;
 }
 
+/// The least range of a quantity that is worth a scale: 1 Pa, the end of the range of a law; others have none. Values below a hundredth of it are
+/// what the solver leaves of nothing.
+double least_range(ColorBy by) { return by == ColorBy::kOutsideLaw ? 1.0 : by == ColorBy::kPressure ? 1e-3 : 0.0; }
+
 /// The scale that suits these values, those that are not numbers left out; `beyond` is the part of them that may lie outside at each end.
-ColorScale scale_of(std::vector<double> values, double beyond) {
+ColorScale scale_of(std::vector<double> values, double beyond, double least) {
   ColorScale scale;
   std::erase_if(values, [](double value) { return !std::isfinite(value); });
   scale.data_low = 1.0;  // no data
@@ -68,6 +72,10 @@ ColorScale scale_of(std::vector<double> values, double beyond) {
   };
   scale.low = percentile(beyond);
   scale.high = percentile(1.0 - beyond);
+  if (std::max(std::abs(scale.low), std::abs(scale.high)) < 0.01 * least) {
+    scale.low = 0.0, scale.high = least;
+    return scale;
+  }
   if (scale.low < 0.0 && -scale.low > 0.1 * scale.high) {
     scale.diverging = true;
     scale.high = std::max(-scale.low, scale.high);
@@ -128,7 +136,7 @@ ColorScale common_scale(std::span<const Snapshot> snapshots, ColorBy by, std::si
   std::vector<double> values;
   for (const Snapshot& snapshot : snapshots)
     for (std::size_t c = 0; c < snapshot.cells.size(); ++c) values.push_back(color_value(snapshot, c, by, field));
-  ColorScale scale = scale_of(std::move(values), 0.01);
+  ColorScale scale = scale_of(std::move(values), 0.01, least_range(by));
   scale.quantity = by == ColorBy::kPressure     ? "pressure"
                    : by == ColorBy::kVolume     ? "volume"
                    : by == ColorBy::kOutsideLaw ? "outside law"
@@ -139,7 +147,7 @@ ColorScale common_scale(std::span<const Snapshot> snapshots, ColorBy by, std::si
 
 ColorScale field_scale(const Snapshot& snapshot, std::size_t field) {
   if (field >= snapshot.fields.size()) return {};
-  ColorScale scale = scale_of(snapshot.fields[field].concentration, 0.0);
+  ColorScale scale = scale_of(snapshot.fields[field].concentration, 0.0, least_range(ColorBy::kField));
   scale.quantity = snapshot.fields[field].name;
   choose_unit(scale, ColorBy::kField);
   return scale;

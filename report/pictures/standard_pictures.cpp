@@ -84,7 +84,7 @@ std::vector<Picture> standard_pictures(std::span<const Snapshot> snapshots, cons
   else if (last.cells.size() > 1)
     set.add(last, "cut_cells_final", "each cell in its own colour", colored(ColorBy::kIdentity), true, false);
   set.add(last, "cut_pressure_final", "coloured by pressure", colored(ColorBy::kPressure, own_scale(last, pressure)), true, false);
-  if (const ColorScale scale = common_scale({&last, 1}, ColorBy::kOutsideLaw); bodies.contains(BodyKind::kSphere) && scale.data_high > 0.0)
+  if (const ColorScale scale = common_scale({&last, 1}, ColorBy::kOutsideLaw); bodies.contains(BodyKind::kSphere) && scale.data_high > 0.01)
     set.add(last, "cut_outside_law_final", "coloured by how far they are beyond the range of the laws of spheres (1: at its end)",
             colored(ColorBy::kOutsideLaw, scale), true, false);
   for (std::size_t field = 0; field < last.fields.size(); ++field) {

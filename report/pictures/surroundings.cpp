@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
+#include <utility>
 
 #include "core/ball.h"
 #include "core/numbers/joined.h"
@@ -57,11 +59,42 @@ Snapshot::Obstacle creased(const Snapshot::Obstacle& smooth) {
   return out;
 }
 
+/// Edges of a surface that bound one face only, along that face.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> border_of(const Snapshot::Obstacle& surface) {
+  std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
+  for (const Triangle& face : surface.faces)
+    for (std::size_t k = 0; k < 3; ++k) edges.emplace(face[k], face[(k + 1) % 3]);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> out;
+  for (const auto& [a, b] : edges)
+    if (!edges.contains({b, a})) out.emplace_back(a, b);
+  return out;
+}
+
+/// A flat surface that encloses nothing, as a wall of the domain, would fill no pixel where it is seen edge-on: it is as thick as this, away from the side
+/// that its faces turn to, which is that of the cells [µm]. Others stay as they are.
+Snapshot::Obstacle with_thickness(const Snapshot::Obstacle& wall, const Camera& camera, double thickness) {
+  constexpr double kEdgeOn = 0.02;  // cosine to the line of sight
+  Snapshot::Obstacle out = wall;
+  const auto border = border_of(wall);
+  if (border.empty() || wall.faces.empty()) return out;
+  const auto& [a, b, c] = wall.faces.front();
+  const Vec3d normal = normalized(cross(wall.position[b] - wall.position[a], wall.position[c] - wall.position[a]));
+  const auto is_in_plane = [&](const Vec3d& p) {
+    return std::abs(dot(p - wall.position[a], normal)) <= 1e-6 * (norm(p - wall.position[a]));
+  };
+  if (std::abs(dot(normal, camera.toward)) > kEdgeOn || !std::ranges::all_of(wall.position, is_in_plane)) return out;
+  const auto outer = static_cast<std::uint32_t>(wall.position.size());
+  for (const Vec3d& p : wall.position) out.position.push_back(p - normal * thickness);
+  for (const Triangle& face : wall.faces) out.faces.push_back({face[0] + outer, face[2] + outer, face[1] + outer});
+  for (const auto& [from, to] : border) out.faces.push_back({to, from, from + outer}), out.faces.push_back({to, from + outer, to + outer});
+  return out;
+}
+
 /// Obstacles as if they were shells, for rasterize.
-Snapshot as_shells(const Snapshot& snapshot, const std::vector<bool>& hollow) {
+Snapshot as_shells(const Snapshot& snapshot, const std::vector<bool>& hollow, const Camera& camera, double thickness) {
   Snapshot out;
   for (std::size_t i = 0; i < snapshot.obstacles.size(); ++i) {
-    const Snapshot::Obstacle obstacle = creased(snapshot.obstacles[i]);
+    const Snapshot::Obstacle obstacle = creased(with_thickness(snapshot.obstacles[i], camera, thickness));
     const auto number = static_cast<std::uint32_t>(i);
     out.cells.emplace_back().body = BodyKind::kShell;
     out.shells.push_back(
@@ -143,7 +176,8 @@ DrawnSurroundings draw_surroundings(const Snapshot& snapshot, const Camera& came
   }
   if (any) {
     out.obstacles.emplace(cells.width, cells.height);
-    rasterize(as_shells(snapshot, out.hollow), camera, cut, *out.obstacles);
+    constexpr double kWall = 0.012;  // of the width of the picture
+    rasterize(as_shells(snapshot, out.hollow, camera, kWall * cells.width / camera.pixels_per_um), camera, cut, *out.obstacles);
   }
   if (cut) draw_fluid(snapshot, camera, *cut, cells, out.fluid);
   return out;

@@ -16,13 +16,14 @@ constexpr std::array kChecks{
              "Connectivity, orientation and least angle of the meshes of shells."},
     RunCheck{
         "INV.3", "volume of any cell against its pressure law, relative", "limits.volume_error",
-        "Of every shell at every output: its volume against that at which its pressure balances the law of its volume. Where it fails, "
-        "steps are too long for what happens (`time.step`), or a cell is squeezed beyond its law (`bulk_modulus`)."},
+        "Of every cell at every output: its volume against that which its target volume and its inner pressure ask for. Rounding, unless "
+        "growth, a division or an exchange of bodies has lost volume on the way: a fault of the program, worth a report."},
     RunCheck{
         "INV.4", "deepest penetration of a surface at the start and in any step", "limits.overlap",
-        "How far a node of a shell lies within another shell or an obstacle. Spheres of a pair law overlap by design and do not count. "
-        "Where it fails, contacts are too soft for the pressure on them (`contact.repulsion`, `contact.range`), meshes too coarse "
-        "(`nodes`), or cells begin in each other (`numerics.start_cap`)."},
+        "How far a node of a shell lies within another shell or an obstacle, or its nucleus in its cortex. Spheres of a pair law overlap "
+        "by "
+        "design and do not count. Where it fails, contacts are too soft for the pressure on them (`contact.repulsion`, `contact.range`), "
+        "meshes too coarse (`nodes`), or cells begin in each other (other places, `start_volume` and `inflate`, or a larger limit)."},
     RunCheck{"INV.5", "how far a node of a nucleus is outside its cortex, at any output", "limits.overlap",
              "Of nuclei that are shells; where they are rigid nothing measures it."},
     RunCheck{"INV.6", "residual of the linear systems", kTests, "What the solver leaves of the forces of a step: `numerics.tolerance`."},

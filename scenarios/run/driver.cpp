@@ -169,12 +169,16 @@ Result<RunSummary> run(const Study& study, const RunRequest& request, const Comm
   return loop.go();
 }
 
-Result<RunSummary> resume(const std::filesystem::path& run, const ResumeRequest& request, const Comm& comm) {
+Result<RunSummary> resume(const std::filesystem::path& run, const ResumeRequest& asked, const Comm& comm) {
   MORULA_TRY_ASSIGN(RunFolder folder, RunFolder::open(run, comm));
   MORULA_TRY_ASSIGN(const RunLock lock, RunLock::take(folder.path(), comm));
-  auto read = read_run_study(folder.path(), request.laws);
+  auto read = read_run_study(folder.path(), asked.laws);
   MORULA_TRY(agree(read.ok() ? Status{} : Status(read.error()), comm));
   const Study study = std::move(read).value();
+  ResumeRequest request = asked;
+  // A run that was to go beyond the study's end still is.
+  const auto was = read_run_status(folder.status());
+  if (const double end = comm.max(was.ok() ? was->end : 0.0); !asked.until && end > study.time.end) request.until = end;
   MORULA_TRY_ASSIGN(RunRecord record, read_run_record(folder.record()));
   MORULA_TRY_ASSIGN(auto columns, columns_of(study));
   MORULA_TRY_ASSIGN(Restored restored, restore(folder, request, study, comm));
@@ -184,7 +188,7 @@ Result<RunSummary> resume(const std::filesystem::path& run, const ResumeRequest&
        "the resolved study of a run must not be changed; start a new run instead"}));
   MORULA_TRY(agree(comm.is_root() ? check_inputs(folder.path(), record) : Status{}, comm));
   const double time = restored.checkpoint.tissue.clock.time;
-  if (request.until) MORULA_TRY(is_before(time, *request.until, "--until"));
+  if (asked.until) MORULA_TRY(is_before(time, *asked.until, "--until"));
   MORULA_TRY(set_aside_damaged(restored, comm));
   const std::string failure = record.state == RunState::kFailed ? record.message : "";
   MORULA_TRY_ASSIGN(auto simulation, Simulation::create(study.model, std::move(restored.checkpoint.tissue), comm, request.threads));
@@ -206,7 +210,7 @@ Result<RunSummary> resume(const std::filesystem::path& run, const ResumeRequest&
   loop.note(Note::Kind::kNote, "resumed from the checkpoint at " + time_text(time));
   if (!failure.empty()) loop.note(Note::Kind::kWarning, "the run had ended with an error, and goes on unchanged: " + failure);
   if (time >= loop.end()) loop.note(Note::Kind::kNote, "nothing is left to do: the run ends at " + time_text(loop.end()));
-  if (request.until) loop.note(Note::Kind::kNote, end_note(request, loop.end()));
+  if (asked.until) loop.note(Note::Kind::kNote, end_note(request, loop.end()));
   return loop.go();
 }
 

@@ -53,6 +53,15 @@ Status RunLoop::check_limits(const Measures& m) {
   MORULA_TRY(check_packing(m));
   tell_contacts_beyond(m);
   tell_shells_beyond_budget(m);
+  constexpr double kMostEdge = 5.0;  // edges of shells in tissues of one body stay below 3 times the mean
+  if (m.drawn_out.value > kMostEdge)
+    warn_near_limit(
+        kDrawnOut,
+        "cell " + m.drawn_out.cell.text() + " is drawn out: its longest edge is " + number_text("%.2g", m.drawn_out.value) +
+            " times the mean one at " + time_text(m.time) +
+            ". A shell without elasticity flows into the gaps between spheres where it is pressed with more than some 13 tensions "
+            "over the radius, and its run may end: an elastic cortex (`elastic: springs`), more tension, or one body for cells that "
+            "are pressed");
   for (std::size_t f = 0; f < study_.model.fields.size(); ++f) {
     const std::string balance = "balance of " + study_.model.fields[f].name + " off by " + number_text("%.2g", m.field_balance[f]) +
                                 " (limit " + number_text("%.2g)", limits.field_balance);

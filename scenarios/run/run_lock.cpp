@@ -6,6 +6,7 @@
 
 #include <cerrno>
 
+#include "core/shell_word.h"
 #include "results/file_io.h"
 
 namespace morula::scenarios {
@@ -17,7 +18,7 @@ Result<RunLock> RunLock::take(const std::filesystem::path& run, const Comm& comm
     descriptor = ::open(run.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (descriptor >= 0 && ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
       status = Error{ErrorKind::kInput, "'" + run.string() + "' is being written by another program",
-                     "wait for it, or stop it; `morula status " + run.string() + "` shows where it stands"};
+                     "wait for it, or stop it; `morula status " + shell_word(run.string()) + "` shows where it stands"};
   }
   RunLock lock(descriptor);
   MORULA_TRY(agree(std::move(status), comm));

@@ -76,7 +76,8 @@ class RunLoop {
     kMoreShells = 32,
     kToAndFro = 64,
     kOutsideFields = 128,
-    kCreeping = 256
+    kCreeping = 256,
+    kDrawnOut = 512
   };
   void warn_near_limit(Warned what, const std::string& text);
   /// Writes into results.h5; where its content is in the way, once more into a new one. Collective.

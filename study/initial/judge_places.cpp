@@ -6,6 +6,7 @@
 #include <numbers>
 #include <set>
 
+#include "coupling/cell_variables.h"
 #include "coupling/overlap.h"
 #include "coupling/simulation.h"
 #include "study/read_section.h"
@@ -168,6 +169,7 @@ class Judge {
     }
     Model model = study_.model;  // what acts besides contact is left out
     model.fields.clear();
+    number_trait_variables(model);
     model.loads.clear();
     model.lumens.clear();
     model.apical_springs.clear();

@@ -115,5 +115,26 @@ TEST(PublicInterface, WritesSnapshotsThatAreReadAsThoseOfARun) {
   EXPECT_FALSE(simulation->write_snapshot("/nowhere/moments.h5").ok());
 }
 
+TEST(PublicInterface, DoesNotMixSnapshotsOfTwoStudies) {
+  const scenarios::test::Folder folder;
+  const std::filesystem::path file = folder.path() / "moments.h5";
+  auto one = Simulation::create(Study::from_text(kStudy).value());
+  auto other = Simulation::create(Study::from_text(kStudy, ".", {"seed=77"}).value());
+  ASSERT_TRUE(one.ok() && other.ok());
+  ASSERT_TRUE(one->write_snapshot(file).ok());
+  const Status mixed = other->write_snapshot(file);
+  ASSERT_FALSE(mixed.ok());
+  EXPECT_NE(mixed.error().message.find("has snapshots of another study"), std::string::npos) << mixed.error().message;
+  EXPECT_TRUE(one->write_snapshot(file).ok());
+}
+
+TEST(PublicInterface, RefusesNumbersThatAreNone) {
+  const Study study = Study::from_text(kStudy).value();
+  for (const int threads : {0, -5, 100000}) EXPECT_FALSE(Simulation::create(study, threads).ok()) << threads;
+  auto simulation = Simulation::create(study);
+  ASSERT_TRUE(simulation.ok());
+  EXPECT_FALSE(simulation->advance_to(std::nan("")).ok());
+}
+
 }  // namespace
 }  // namespace morula::api

@@ -188,6 +188,19 @@ TEST(PicturesSurroundings, PlateIsSeenBesideACellBehindAndBeforeIt) {
   EXPECT_TRUE(grey(plate));
 }
 
+/// A wall of the domain is a surface without thickness: seen along itself it would not be there.
+TEST(PicturesSurroundings, AWallThatIsSeenEdgeOnIsALine) {
+  Snapshot snapshot;
+  add_sphere(snapshot, {}, 6.0);
+  snapshot.obstacles = {{"wall z low", {}, {{-20, -20, -6}, {20, -20, -6}, {20, 20, -6}, {-20, 20, -6}}, {{0, 1, 2}, {0, 2, 3}}}};
+  for (const bool cut : {false, true}) {
+    const Image image = render(snapshot, from_front(snapshot, cut));
+    EXPECT_TRUE(grey(image.at(50, 100 + 31))) << "just below the cell, " << cut;
+    EXPECT_EQ(image.at(50, 100 + 27), kPaper) << "above it";
+    EXPECT_EQ(image.at(50, 100 + 40), kPaper) << "below it";
+  }
+}
+
 TEST(PicturesSurroundings, SidesOfAPlateAreFlatAndTubesRound) {
   Snapshot snapshot;
   add_sphere(snapshot, {0, 0, 40}, 1.0);  // away from what is looked at
@@ -302,6 +315,16 @@ TEST(PicturesColours, ScaleOfOneValueStartsAtZeroAndIsRound) {
   const ColorScale scale = common_scale(std::span(&snapshot, 1), ColorBy::kPressure);
   EXPECT_EQ(scale.low, 0.0);
   EXPECT_NEAR(scale.high, 0.1, 1e-12);
+}
+
+/// What a solver leaves of no pressure at all is no picture of yellow and violet cells.
+TEST(PicturesColours, RoundingHasNoScaleOfItsOwn) {
+  Snapshot snapshot;
+  for (const double pressure : {0.0, 3.5e-25, -1e-25}) add_sphere(snapshot, {}, 5.0), snapshot.cells.back().pressure = pressure;
+  const ColorScale scale = common_scale(std::span(&snapshot, 1), ColorBy::kPressure);
+  EXPECT_EQ(scale.low, 0.0);
+  EXPECT_DOUBLE_EQ(scale.high * scale.per_unit, 1.0);
+  EXPECT_EQ(scale.unit, "Pa");
 }
 
 TEST(PicturesText, UnitsReadAsPeopleWriteThem) {

@@ -72,12 +72,12 @@ TEST_F(Lineage, DaughtersAreOfTheTypesThatTheDivisionTells) {
 TEST_F(Lineage, TellsEveryLifeFromBirthToEnd) {
   EXPECT_EQ(lineage_csv(lives(kEvents)),
             "id,parent,type,birth [s],end [s],how,birth volume [um^3],division volume [um^3]\n"
-            "2,,egg,-600,1200,divided,,1000\n"
+            "2,0,egg,-600,1200,divided,,1000\n"
             "2.0,2,egg,1200,4800,divided,300,\n"
             "2.1,2,egg,1200,6000,died,700,\n"
             "2.00,2.0,egg,4800,7200,alive,,\n"
             "2.01,2.0,egg,4800,7200,dying,,\n"
-            "11,,wall,0,7200,alive,,\n")
+            "11,0,wall,0,7200,alive,,\n")
       << "what comes after the last snapshot is not told";
 }
 

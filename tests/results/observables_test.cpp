@@ -58,6 +58,24 @@ TEST(Observables, KnowATissueOfKnownNumbers) {
   EXPECT_LT(value_of("volume_error", *simulation), 1e-12);
 }
 
+/// Of fluid shells beside spheres: there a surface can flow into gaps that no cell fills.
+TEST(Observables, AnEdgeThatIsDrawnOutIsSeenWhereThereAreSpheres) {
+  const auto drawn_out = [](bool fluid, BodyKind other) {
+    Model model = test::clusters_model();
+    model.types[0].shell.spring_stiffness = fluid ? 0.0 : 1.0;
+    model.types[0].shell.sheets.clear();
+    ShapeLibrary shapes;
+    Tissue tissue = test::make_tissue(model, shapes, {{-60, 0, 0}, {60, 0, 0}}, {other, BodyKind::kShell});
+    tissue.shells.nodes(tissue.shells.size() - 1)[0] *= 1.5;
+    return measure(*std::move(Simulation::create(model, std::move(tissue), Comm(), 1)).value()).drawn_out;
+  };
+  const Extreme seen = drawn_out(true, BodyKind::kSphere);
+  EXPECT_GT(seen.value, 5.0);
+  EXPECT_EQ(seen.cell, CellId::founder(2));
+  EXPECT_EQ(drawn_out(false, BodyKind::kSphere).value, 0.0);
+  EXPECT_EQ(drawn_out(true, BodyKind::kShell).value, 0.0) << "all are shells";
+}
+
 TEST(Observables, VolumeErrorSeesAVolumeThatGotLost) {
   Model model = test::clusters_model();
   ShapeLibrary shapes;

@@ -83,11 +83,9 @@ TEST_F(OwnObservables, CannotBearTheNameOfAnother) {
     return std::vector<Observable>{{"cell_count", "1", "Cells.", [](const Moment&) { return 0.0; }}};
   });
   laws_ = std::make_shared<const Laws>(std::move(laws));
-  RunRequest request;
-  request.out = folder_.path() / "never";
-  const auto done = run(study(kTwo), request, Comm());
-  ASSERT_FALSE(done.ok());
-  EXPECT_THAT(done.error().message, HasSubstr("two observables are called 'cell_count'"));
+  const auto refused = read(kTwo, options());
+  ASSERT_FALSE(refused.ok());
+  EXPECT_THAT(refused.error().text(), HasSubstr("two of `observables` are called `cell_count`"));
 }
 
 }  // namespace

@@ -259,6 +259,27 @@ TEST_F(Runs, UntilBeyondTheEndGoesOn) {
   EXPECT_EQ(read_series(*this / "a/series.csv")->rows(), 7u);
 }
 
+TEST_F(Runs, ThatWereToGoBeyondTheEndStillAreWhenResumed) {
+  std::atomic<int> stop{kGoOn};
+  RunRequest further = request("a");
+  further.until = 480.0;
+  further.stop = &stop;
+  further.on_progress = [&](const Progress& now) {
+    if (now.time > 310.0) stop = kInterrupt;
+  };
+  const auto first = run(study(kShells), further, Comm());
+  ASSERT_TRUE(first.ok()) << first.error().message;
+  ASSERT_EQ(first->state, RunState::kStopped);
+  EXPECT_EQ(read_run_status(*this / "a/status.json")->end, 480.0);
+  const auto rest = resume(*this / "a", {}, Comm());
+  ASSERT_TRUE(rest.ok()) << rest.error().message;
+  EXPECT_EQ(rest->final_state.time, 480.0);
+  const auto again = resume(*this / "a", {}, Comm());  // nothing is left to do
+  ASSERT_TRUE(again.ok()) << again.error().message;
+  EXPECT_EQ(again->final_state.time, 480.0);
+  EXPECT_EQ(read_run_status(*this / "a/status.json")->end, 480.0);
+}
+
 TEST_F(Runs, WhatIsLaterThanTheCheckpointIsTakenAway) {
   const RunSummary whole = run_whole(kSpheres, "whole");
   // As if killed after the output at 1.5 h: the newest checkpoint is that of 1 h.

@@ -55,5 +55,27 @@ TEST(BoxCourse, IsRefusedWithThePlaceWhereItCannotBeFollowed) {
       << "without a course the smaller box is large enough";
 }
 
+/// Shells that are pressed reach further than balls: two of 8 um touched on both sides of a face of a box of 36 um, where 34 are enough for balls.
+TEST(PeriodicDomain, IsToldWhereShellsMayMeetOnBothSides) {
+  const auto told = [](const std::string& edge, const std::string& body) {
+    const auto study = test::read(R"(schema: 1
+study: box
+time: {end: 1 h}
+domain: {size: [)" + edge + ", " + edge +
+                                  ", " + edge + R"(], boundary: periodic}
+cell_types: {cell: {radius: 6 um, body: )" +
+                                  body + R"(}}
+initial:
+  - {type: cell, at: [0 um, 0 um, 0 um]}
+)");
+    return study.ok() ? study->warnings.text() : "refused: " + study.error().text();
+  };
+  // 2 (2 R + c) = 25 um and 2 (2.5 R + c) = 31 um
+  EXPECT_NE(told("28 um", "shell").find("warning: the domain is small along x"), std::string::npos) << told("28 um", "shell");
+  EXPECT_EQ(told("24 um", "shell").find("refused"), 0u);
+  EXPECT_EQ(told("32 um", "shell").find("E511"), std::string::npos);
+  EXPECT_EQ(told("28 um", "sphere").find("E511"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace morula::scenarios

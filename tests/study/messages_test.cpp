@@ -102,6 +102,16 @@ TEST(StudyMessages, StrictMakesWarningsErrors) {
   EXPECT_THAT(errors_of(text, strict), HasSubstr("error: the checkpoint interval (600 h) is longer than the run (96 h) [E508]"));
 }
 
+/// The default of an interval, which the resolved study names, is nobody's mistake.
+TEST(StudyMessages, AResolvedStudyThatIsShortHasNoWarningOfItsOwn) {
+  const auto study = read(changed("{end: 96 h, step: auto, output: 1 h, checkpoint: 6 h}", "{end: 2 h}"));
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  ReadOptions strict;
+  strict.strict = true;
+  const auto again = read(study->resolved_text, strict);
+  EXPECT_TRUE(again.ok() || again.error().text().find("E508") == std::string::npos) << again.error().text();
+}
+
 TEST(EditDistance, CountsSwappedNeighboursAsOne) {
   EXPECT_EQ(edit_distance("yuong", "young"), 1u);
   EXPECT_EQ(edit_distance("", "abc"), 3u);

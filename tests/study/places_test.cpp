@@ -30,6 +30,18 @@ TEST(Places, OfShellsThatTouchOrOverlapALittleAreFine) {
   EXPECT_TRUE(test::read(test::changed("initial:", "numerics: {start_cap: auto}\ninitial:", deep)).ok()) << "half of the larger radius";
 }
 
+/// The deviation of a cell is a variable that comes after those of the fields, of which the judge has none.
+TEST(Places, OfCellsThatDifferAreJudgedBesideFields) {
+  std::string varied = test::changed("small: {radius: 5 um, body: shell}", "small: {radius: 5 um, body: shell, variation: {tension: 10 %}}",
+                                     test::changed("[0 um, 0 um, 20 um]", "[0 um, 0 um, 16.9 um]", kStudy));
+  for (int fields = 1; fields <= 6; ++fields) {
+    varied += fields == 1 ? "fields:\n" : "";
+    varied += "  f" + std::to_string(fields) + ": {diffusion: 50 um^2/s, initial: 1 mM}\n";
+    const auto study = test::read(varied);
+    EXPECT_TRUE(study.ok()) << fields << ": " << study.error().text();
+  }
+}
+
 TEST(Places, SpheresHaveNoMeshToTurn) {
   const std::string spheres = test::changed("small: {radius: 5 um, body: shell}", "small: {radius: 5 um}", kStudy);
   EXPECT_NE(test::errors_of(test::changed("20 um]]}", "20 um]], orientation: aligned}", spheres))

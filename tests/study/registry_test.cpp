@@ -10,7 +10,7 @@
 #include "coupling/regions/region.h"
 #include "fields/reaction.h"
 #include "study/catalogue.h"
-#include "study/law_names.h"
+#include "study/law_faults.h"
 #include "tests/study/study_fixture.h"
 
 namespace morula::scenarios::test {
@@ -101,8 +101,8 @@ TEST(Registry, EveryEntryTellsOfItself) {
   }
 }
 
-TEST(Registry, ANameThatIsThereTwiceIsRefused) {
-  EXPECT_THAT(names_twice(*builtin_laws()), testing::IsEmpty());
+TEST(Registry, LawsThatCannotBeUsedAreRefused) {
+  EXPECT_THAT(law_faults(*builtin_laws()), testing::IsEmpty());
   const auto told = [](const auto& add) {
     auto laws = std::make_shared<Laws>(*builtin_laws());
     add(*laws);
@@ -113,19 +113,41 @@ TEST(Registry, ANameThatIsThereTwiceIsRefused) {
   };
   EXPECT_THAT(told([](Laws&) {}), "");
   const auto twice = [](auto& entries) { entries.push_back(entries.front()); };
-  EXPECT_THAT(told([&](Laws& l) { twice(l.spheres); }), testing::AllOf(HasSubstr("E692"), HasSubstr("contact of spheres: `")));
-  EXPECT_THAT(told([&](Laws& l) { twice(l.shells); }), HasSubstr("laws of shells: `"));
-  EXPECT_THAT(told([&](Laws& l) { twice(l.surfaces); }), HasSubstr("contact of surfaces: `"));
-  EXPECT_THAT(told([&](Laws& l) { twice(l.behaviours); }), HasSubstr("behaviours: `"));
-  EXPECT_THAT(told([&](Laws& l) { twice(l.growth); }), HasSubstr("growth: `"));
-  EXPECT_THAT(told([&](Laws& l) { twice(l.arrest); }), HasSubstr("arrest: `"));
-  EXPECT_THAT(told([&](Laws& l) { twice(l.division_axes); }), HasSubstr("axes of division: `"));
-  EXPECT_THAT(told([&](Laws& l) { twice(l.migration); }), HasSubstr("migration: `"));
-  EXPECT_THAT(told([&](Laws& l) { twice(l.polarity); }), HasSubstr("polarity: `"));
-  EXPECT_THAT(told([&](Laws& l) { twice(l.loads); }), HasSubstr("loads: `"));
-  EXPECT_THAT(told([&](Laws& l) { twice(l.region_shapes); }), HasSubstr("shapes of regions: `"));
-  EXPECT_THAT(told([&](Laws& l) { twice(l.trigger_values); }), HasSubstr("values of triggers: `"));
-  EXPECT_THAT(told([&](Laws& l) { twice(l.reactions); }), HasSubstr("reactions: `"));
+  EXPECT_THAT(told([&](Laws& l) { twice(l.spheres); }),
+              testing::AllOf(HasSubstr("E692"), HasSubstr("two of `contact of spheres` are called `")));
+  EXPECT_THAT(told([&](Laws& l) { twice(l.shells); }), HasSubstr("two of `laws of shells` are called `"));
+  EXPECT_THAT(told([&](Laws& l) { twice(l.surfaces); }), HasSubstr("two of `contact of surfaces` are called `"));
+  EXPECT_THAT(told([&](Laws& l) { twice(l.behaviours); }), HasSubstr("two of `behaviours` are called `"));
+  EXPECT_THAT(told([&](Laws& l) { twice(l.growth); }), HasSubstr("two of `growth` are called `"));
+  EXPECT_THAT(told([&](Laws& l) { twice(l.arrest); }), HasSubstr("two of `arrest` are called `"));
+  EXPECT_THAT(told([&](Laws& l) { twice(l.division_axes); }), HasSubstr("two of `axes of division` are called `"));
+  EXPECT_THAT(told([&](Laws& l) { twice(l.migration); }), HasSubstr("two of `migration` are called `"));
+  EXPECT_THAT(told([&](Laws& l) { twice(l.polarity); }), HasSubstr("two of `polarity` are called `"));
+  EXPECT_THAT(told([&](Laws& l) { twice(l.loads); }), HasSubstr("two of `loads` are called `"));
+  EXPECT_THAT(told([&](Laws& l) { twice(l.region_shapes); }), HasSubstr("two of `shapes of regions` are called `"));
+  EXPECT_THAT(told([&](Laws& l) { twice(l.trigger_values); }), HasSubstr("two of `values of triggers` are called `"));
+  EXPECT_THAT(told([&](Laws& l) { twice(l.reactions); }), HasSubstr("two of `reactions` are called `"));
+  EXPECT_THAT(told([&](Laws& l) { l.loads.push_back(nullptr); }), HasSubstr("one of `loads` is a null pointer"));
+  const auto without = [](const auto& entry, const auto& change) {
+    auto copy = *entry;
+    copy.info.name = "mine";
+    change(copy);
+    return std::make_shared<const std::remove_const_t<decltype(copy)>>(copy);
+  };
+  EXPECT_THAT(told([&](Laws& l) { l.behaviours.push_back(without(l.behaviours[0], [](Behaviour& b) { b.build = nullptr; })); }),
+              HasSubstr("`mine` of `behaviours` has no `build`"));
+  EXPECT_THAT(told([&](Laws& l) { l.loads.push_back(without(body_force_load(), [](Load& b) { b.push_cell = nullptr; })); }),
+              HasSubstr("`mine` of `loads` has no `force: push, push_cell, hold or hold_center, just one of them`"));
+  const auto column = [&told](const std::string& name) {
+    return told([&name](Laws& l) {
+      l.observables.emplace_back([name](const Model&) {
+        return std::vector<Observable>{{name, "1", "", [](const Moment&) { return 0.0; }}};
+      });
+    });
+  };
+  EXPECT_THAT(column("a,b"), HasSubstr("no column of series.csv can be called `a,b [1]`"));
+  EXPECT_THAT(column("cell_count"), HasSubstr("two of `observables` are called `cell_count`"));
+  EXPECT_EQ(column("mine"), "");
 }
 
 TEST(Registry, EveryLawOfMotionTellsOfItself) {

@@ -35,6 +35,54 @@ TEST(UnusedKeys, OfShellsWhereNobodyMakesOne) {
               Not(HasSubstr("no effect")));
 }
 
+/// The modulus of spheres and their packing are those of shells where nothing else is said.
+TEST(UnusedKeys, DoNotCountTheBulkModulus) {
+  EXPECT_EQ(warnings("{a: {dcm: {bulk_modulus: 4 kPa}}}"), "");
+  EXPECT_THAT(warnings("{a: {dcm: {bulk_modulus: 4 kPa, nodes: 642}}}"), HasSubstr("`dcm.nodes` is of shells"));
+}
+
+TEST(UnusedKeys, OfShellsThatATableMakes) {
+  const Folder folder;
+  const auto told = [&folder](const std::string& body) {
+    folder.write("cells.csv", "x [um],y [um],z [um],type,model\n0,0,0,a," + body + "\n");
+    const auto study = read_study_text("study.yaml", R"(schema: 1
+study: unused
+time: {end: 1 h, output: 1 h, checkpoint: 1 h}
+domain: {size: [100 um, 100 um, 100 um]}
+cell_types: {a: {dcm: {cortex: {tension: 0.2 mN/m}}}}
+contact: {repulsion: 50 kPa/um}
+initial:
+  - {csv: cells.csv}
+)",
+                                       folder.path());
+    return study.ok() ? study->warnings.text() : study.error().text();
+  };
+  EXPECT_THAT(told("sphere"), AllOf(HasSubstr("always spheres"), HasSubstr("'repulsion' is of surfaces")));
+  EXPECT_THAT(told("shell"), Not(HasSubstr("no effect")));
+}
+
+/// Daughters that become another body are exchanges, too.
+TEST(UnusedKeys, OfExchangeByFates) {
+  const std::string types = "{a: {cycle: {duration: 10 min, daughters: {fates: [{share: 100 %, types: [a, b]}]}}}, b: {body: shell}}";
+  EXPECT_THAT(warnings(types, "coupling: {max_shells: 1}\n"), Not(HasSubstr("is of rules by which")));
+}
+
+/// What a run writes out reads without a warning that the study itself has not.
+TEST(UnusedKeys, OfAResolvedStudyAreThoseOfTheStudy) {
+  const auto study =
+      read(study_of("{a: {body: shell}}",
+                    "geometry: {floor: {plane: {center: [0 um, 0 um, -6 um], normal: [0, 0, 1], size: 100 um}}}\n"
+                    "marks: {wet: {types: [a], touched_by: floor}, apical: {types: [a], cone: {axis: [0, 0, 1], angle: 60 deg}}}\n"
+                    "lumens: {gap: {center: [0 um, 0 um, 9 um], pressure: 5 Pa, faces: apical}}\n"));
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  const auto again = read(study->resolved_text);
+  ASSERT_TRUE(again.ok()) << again.error().text();
+  EXPECT_THAT(again->warnings.text(), Not(HasSubstr("[E515]")));
+  const auto spheres = read(study_of("{a: {}}"));
+  ASSERT_TRUE(spheres.ok());
+  EXPECT_EQ(warnings_of(spheres->resolved_text), "");
+}
+
 TEST(UnusedKeys, OfATypeThatOthersAreLikeAreThoseOfTheOthers) {
   const std::string base = "base: {dcm: {cortex: {tension: 0.2 mN/m}}}";
   EXPECT_EQ(warnings("{" + base + ", a: {like: base, body: shell}}"), "");
@@ -47,6 +95,18 @@ TEST(UnusedKeys, OfExchangeWithoutARule) {
   EXPECT_THAT(warnings("{a: {}}", "coupling: {hold: 20 min, max_shells: 5}\n"),
               AllOf(HasSubstr("'hold' is of rules"), HasSubstr("'max_shells' is of rules")));
   EXPECT_THAT(warnings("{a: {}}", "coupling: {hold: 20 min, triggers: [{outside_law: 1.0}]}\n"), Not(HasSubstr("no effect")));
+}
+
+TEST(UnusedKeys, CellsThatAreNamedBeyondTheNumberOfShells) {
+  const std::string rule = "coupling: {max_shells: 2, regions: [{name: chosen, shape: cells, as: shell, ids: [";
+  const std::string three = "{a: {}}";
+  const auto told = [&](const std::string& ids) {
+    return warnings_of(changed("[[0 um, 0 um, 0 um]]", "[[0 um, 0 um, 0 um], [20 um, 0 um, 0 um], [40 um, 0 um, 0 um]]",
+                               study_of(three, rule + ids + "]}]}\n")));
+  };
+  EXPECT_THAT(told("1, 2, 3"), HasSubstr("region 'chosen' names 3 cells, and `max_shells` allows 2 shells: the others stay spheres"));
+  EXPECT_THAT(told("1, 2"), Not(HasSubstr("the others stay spheres")));
+  EXPECT_THAT(told("1, 2, 2"), Not(HasSubstr("the others stay spheres"))) << "one of them twice";
 }
 
 TEST(UnusedKeys, OfSurfacesWhereAllAreSpheres) {
