@@ -1,7 +1,5 @@
 #include "study/law_faults.h"
 
-#include <algorithm>
-#include <functional>
 #include <set>
 #include <utility>
 
@@ -82,6 +80,7 @@ std::vector<std::string> law_faults(const Laws& laws) {
   const auto word = [](const auto& entry) { return entry->word; };
   const auto name = [](const auto& entry) { return entry->info.name; };
   const auto nothing = [](const auto&) { return Needs{}; };
+  const auto builds = [](const auto& one) { return Needs{{"build", one.build != nullptr}}; };
   std::set<std::string> shells;
   for (const dcm::ShellLaw& law : laws.shells)
     if (!shells.insert(law.info.name).second) out.push_back("two of `laws of shells` are called " + quoted(law.info.name));
@@ -91,30 +90,15 @@ std::vector<std::string> law_faults(const Laws& laws) {
         return Needs{{"couple", one.couple != nullptr}, {"evaluate", one.evaluate != nullptr}, {"respond", one.respond != nullptr}};
       },
       out);
-  look_through(
-      "contact of surfaces", laws.surfaces, word,
-      [](const SurfaceLaw& one) {
-        return Needs{{"build", one.build != nullptr}};
-      },
-      out);
-  look_through(
-      "behaviours", laws.behaviours, name,
-      [](const Behaviour& one) {
-        return Needs{{"build", one.build != nullptr}};
-      },
-      out);
+  look_through("contact of surfaces", laws.surfaces, word, builds, out);
+  look_through("behaviours", laws.behaviours, name, builds, out);
   look_through(
       "growth", laws.growth, word,
       [](const GrowthLaw& one) {
         return Needs{{"at", one.at != nullptr}, {"after", one.after != nullptr}, {"time_to", one.time_to != nullptr}};
       },
       out);
-  look_through(
-      "arrest", laws.arrest, name,
-      [](const ArrestFactor& one) {
-        return Needs{{"build", one.build != nullptr}};
-      },
-      out);
+  look_through("arrest", laws.arrest, name, builds, out);
   look_through(
       "axes of division", laws.division_axes, name,
       [](const DivisionAxis& one) {

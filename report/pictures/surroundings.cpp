@@ -74,15 +74,16 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> border_of(const Snapshot::O
 /// that its faces turn to, which is that of the cells [µm]. Others stay as they are.
 Snapshot::Obstacle with_thickness(const Snapshot::Obstacle& wall, const Camera& camera, double thickness) {
   constexpr double kEdgeOn = 0.02;  // cosine to the line of sight
-  Snapshot::Obstacle out = wall;
-  const auto border = border_of(wall);
-  if (border.empty() || wall.faces.empty()) return out;
+  if (wall.faces.empty()) return wall;
   const auto& [a, b, c] = wall.faces.front();
   const Vec3d normal = normalized(cross(wall.position[b] - wall.position[a], wall.position[c] - wall.position[a]));
   const auto is_in_plane = [&](const Vec3d& p) {
     return std::abs(dot(p - wall.position[a], normal)) <= 1e-6 * (norm(p - wall.position[a]));
   };
-  if (std::abs(dot(normal, camera.toward)) > kEdgeOn || !std::ranges::all_of(wall.position, is_in_plane)) return out;
+  if (std::abs(dot(normal, camera.toward)) > kEdgeOn || !std::ranges::all_of(wall.position, is_in_plane)) return wall;
+  const auto border = border_of(wall);
+  if (border.empty()) return wall;
+  Snapshot::Obstacle out = wall;
   const auto outer = static_cast<std::uint32_t>(wall.position.size());
   for (const Vec3d& p : wall.position) out.position.push_back(p - normal * thickness);
   for (const Triangle& face : wall.faces) out.faces.push_back({face[0] + outer, face[2] + outer, face[1] + outer});
