@@ -10,7 +10,8 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-std::string study_of(const std::string& types, const std::string& more = "") {
+std::string study_of(const std::string& types, const std::string& more = "",
+                     const std::string& cells = "{type: a, at: [[0 um, 0 um, 0 um]], age: birth}") {
   return R"(schema: 1
 study: unused
 time: {end: 1 h, output: 1 h, checkpoint: 1 h}
@@ -18,8 +19,16 @@ domain: {size: [100 um, 100 um, 100 um]}
 cell_types: )" +
          types + R"(
 initial:
-  - {type: a, at: [[0 um, 0 um, 0 um]], age: birth}
-)" + more;
+  - )" + cells +
+         "\n" + more;
+}
+
+/// What is told of a study whose cells come from this table.
+std::string told_of_table(const std::string& table, const std::string& types, const std::string& more = "", const std::string& keys = "") {
+  const Folder folder;
+  folder.write("cells.csv", table);
+  const auto study = read(study_of(types, more, "{csv: cells.csv" + keys + "}"), {}, folder.path());
+  return study.ok() ? study->warnings.text() : study.error().text();
 }
 
 std::string warnings(const std::string& types, const std::string& more = "") { return warnings_of(study_of(types, more)); }
@@ -42,20 +51,9 @@ TEST(UnusedKeys, DoNotCountTheBulkModulus) {
 }
 
 TEST(UnusedKeys, OfShellsThatATableMakes) {
-  const Folder folder;
-  const auto told = [&folder](const std::string& body) {
-    folder.write("cells.csv", "x [um],y [um],z [um],type,model\n0,0,0,a," + body + "\n");
-    const auto study = read_study_text("study.yaml", R"(schema: 1
-study: unused
-time: {end: 1 h, output: 1 h, checkpoint: 1 h}
-domain: {size: [100 um, 100 um, 100 um]}
-cell_types: {a: {dcm: {cortex: {tension: 0.2 mN/m}}}}
-contact: {repulsion: 50 kPa/um}
-initial:
-  - {csv: cells.csv}
-)",
-                                       folder.path());
-    return study.ok() ? study->warnings.text() : study.error().text();
+  const auto told = [](const std::string& body) {
+    return told_of_table("x [um],y [um],z [um],type,model\n0,0,0,a," + body + "\n", "{a: {dcm: {cortex: {tension: 0.2 mN/m}}}}",
+                         "contact: {repulsion: 50 kPa/um}\n");
   };
   EXPECT_THAT(told("sphere"), AllOf(HasSubstr("always spheres"), HasSubstr("'repulsion' is of surfaces")));
   EXPECT_THAT(told("shell"), Not(HasSubstr("no effect")));
@@ -135,18 +133,8 @@ TEST(UnusedKeys, OfCoursesThatBeginWhenTheRunHasEnded) {
 }
 
 TEST(UnusedKeys, AgesBesideThePhasesOfATable) {
-  const Folder folder;
-  folder.write("cells.csv", "x [um],y [um],z [um],type,phase\n0,0,0,a,0.5\n");
-  const auto told = [&folder](const std::string& more) {
-    const auto study = read_study_text("study.yaml", R"(schema: 1
-study: unused
-time: {end: 1 h, output: 1 h, checkpoint: 1 h}
-domain: {size: [100 um, 100 um, 100 um]}
-cell_types: {a: {cycle: {}}}
-initial:
-  - {csv: cells.csv)" + more + "}\n",
-                                       folder.path());
-    return study.ok() ? study->warnings.text() : study.error().text();
+  const auto told = [](const std::string& keys) {
+    return told_of_table("x [um],y [um],z [um],type,phase\n0,0,0,a,0.5\n", "{a: {cycle: {}}}", "", keys);
   };
   EXPECT_THAT(told(", age: birth"), HasSubstr("'age' has no effect here: all rows of 'cells.csv' have a `phase`"));
   EXPECT_EQ(told(""), "");
