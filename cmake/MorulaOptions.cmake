@@ -74,3 +74,10 @@ function(morula_options target)
     set_target_properties(${target} PROPERTIES CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM} C_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
   endif()
 endfunction()
+
+# Tests: their own code hardly runs, and half of a build is compiling it. What the libraries have in source files is compiled as ever; functions of
+# headers that were not inlined there are those of the tests. Slow tests have all of it as users do.
+function(morula_test_options target)
+  morula_options(${target})
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()

@@ -37,7 +37,7 @@ function(morula_tests name)
   list(FILTER slow INCLUDE REGEX "_slow_test\\.cpp$")
   if(sources)
     add_executable(test_${name} ${sources})
-    morula_options(test_${name})
+    morula_test_options(test_${name})
     target_link_libraries(test_${name} PRIVATE ${ARG_LIBRARIES} GTest::gmock GTest::gtest_main)
     gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 900
       ENVIRONMENT "MORULA_SHARED_DATA=${PROJECT_SOURCE_DIR}/../shared/data")
