@@ -94,19 +94,19 @@ void check_switch(BuildContext& c, const draft::CellType& t, const CellType& typ
 
 /// What is said of a cycle that cells do not have: W515.
 void tell_of_rest(BuildContext& c, const draft::CellType& t, const std::string& name) {
-  const auto idle = [&](const auto& key, const char* word, const char* fallback) {
-    if (is_changed(key, fallback))
+  const auto idle = [&](const auto& key, const char* word) {
+    if (key.is_changed())
       c.diagnostics.warning(515, key.place, "'" + std::string(word) + "' has no effect here: cells of '" + name + "' rest",
                             "another `model`, or leave it away (where it comes by `like`: `" + std::string(word) + ": default`)");
   };
-  idle(t.cycle_duration.mean, "duration", "24 h");
-  idle(t.growth, "growth", "linear");
-  idle(t.cycle.ratio, "ratio", "2");
-  idle(t.cycle.control, "size", "timer");
-  idle(t.axis, "axis", "random");
-  idle(t.division_share.mean, "share", "50 %");
-  idle(t.shells_divide, "shells", "cut");
-  idle(t.new_surface, "new_surface", "10 min");
+  idle(t.cycle_duration.mean, "duration");
+  idle(t.growth, "growth");
+  idle(t.cycle.ratio, "ratio");
+  idle(t.cycle.control, "size");
+  idle(t.axis, "axis");
+  idle(t.division_share.mean, "share");
+  idle(t.shells_divide, "shells");
+  idle(t.new_surface, "new_surface");
 }
 
 }  // namespace
@@ -174,11 +174,11 @@ void build_cycle(BuildContext& c, const draft::CellType& t, const Place& place, 
     c.diagnostics.warning(515, t.growth.place,
                           "'arrest' has no effect here: it holds growth back, and cells of '" + type.name + "' do not grow",
                           "`arrest` of a phase holds that back");
-  if (type.cycles && !grows && is_changed(t.cycle.ratio, "2"))
+  if (type.cycles && !grows && t.cycle.ratio.is_changed())
     c.diagnostics.warning(515, t.cycle.ratio.place, "'ratio' has no effect here: cells of '" + type.name + "' do not grow",
                           "leave it away");
   if (!paced_by_phases(type.cycle)) return;
-  if (is_changed(t.cycle_duration.mean, "24 h"))
+  if (t.cycle_duration.mean.is_changed())
     c.diagnostics.error(515, t.cycle_duration.mean.place, "'duration' has no effect here", "the phases say how long the cycle is");
   if (t.cycle_duration.correlation.value != 0.0)
     c.diagnostics.error(515, t.cycle_duration.correlation.place, "'correlation' has no effect here",

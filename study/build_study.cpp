@@ -65,14 +65,14 @@ double skin_of(const BuildContext& c) {
 void build_time_and_numerics(BuildContext& c) {
   const draft::Time& time = c.draft.time;
   c.study.time = {time.end.value, time.output.value, time.checkpoint.value, c.draft.numerics.start_cap_within.value, time.rest.value};
-  const auto check_interval = [&](const Given<double>& interval, const char* what, const char* fallback) {
-    if (is_changed(interval, fallback) && interval.known() && time.end.known() && interval.value > time.end.value)
+  const auto check_interval = [&](const Given<double>& interval, const char* what) {
+    if (interval.is_changed() && interval.known() && time.end.known() && interval.value > time.end.value)
       c.diagnostics.warning(508, interval.place,
                             std::string("the ") + what + " interval (" + interval.text + ") is longer than the run (" + time.end.text + ")",
                             std::string("make `") + what + "` at most `end`");
   };
-  check_interval(time.output, "output", "1 h");
-  check_interval(time.checkpoint, "checkpoint", "6 h");
+  check_interval(time.output, "output");
+  check_interval(time.checkpoint, "checkpoint");
 
   draft::Numerics& n = c.draft.numerics;
   StepControl& step = c.study.model.step;

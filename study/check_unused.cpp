@@ -47,15 +47,18 @@ void check_shells_that_are_none(BuildContext& c) {
 /// What belongs to rules of exchange, where there is none.
 void check_exchange(BuildContext& c) {
   draft::Coupling& d = c.draft.coupling;
-  if (c.study.model.swaps.any()) return;
   const Given<double>& hold = d.swaps.of("hold", &Swaps::hold);
+  const Swaps& swaps = c.study.model.swaps;
+  if (swaps.regions.empty() && !swaps.triggers.empty() && hold.is_changed())
+    tell(c, hold.place, "'hold' of `coupling` is of regions, and there is none", "`hold` of each trigger");
+  if (swaps.any()) return;
   const Given<std::uint64_t>& most = d.swaps.of("max_shells", &Swaps::max_shells);
   const auto warn = [&c](const Place& place, const char* key) {
     tell(c, place, std::string("'") + key + "' is of rules by which cells change their body, and there is none",
          "add `regions` or `triggers`");
   };
-  if (is_changed(hold, "10 min")) warn(hold.place, "hold");
-  if (is_changed(most, "unlimited")) warn(most.place, "max_shells");
+  if (hold.is_changed()) warn(hold.place, "hold");
+  if (most.is_changed()) warn(most.place, "max_shells");
 }
 
 /// What the contacts of surfaces have, where there are none.
@@ -66,8 +69,8 @@ void check_contact(BuildContext& c) {
     tell(c, place, std::string("'") + key + "' is of surfaces, and all cells are always spheres",
          "the contact of spheres is that of `cbm`");
   };
-  if (is_changed(d.points, "3")) warn(d.points.place, "points");
-  if (is_changed(d.repulsion, "100 kPa/um")) warn(d.repulsion.place, "repulsion");
+  if (d.points.is_changed()) warn(d.points.place, "points");
+  if (d.repulsion.is_changed()) warn(d.repulsion.place, "repulsion");
 }
 
 void check_marks(BuildContext& c) {
@@ -77,13 +80,13 @@ void check_marks(BuildContext& c) {
            "`when: always`; `touched_by: {keep: true}` keeps what was touched once");
   for (auto& [name, place, lumen] : c.draft.lumens) {
     if (lumen.faces.value == "seen") continue;
-    const auto warn = [&](const Given<double>& key, const char* word, const char* fallback) {
-      if (is_changed(key, fallback))
+    const auto warn = [&](const Given<double>& key, const char* word) {
+      if (key.is_changed())
         tell(c, key.place, std::string("'") + word + "' is of what is seen, and the cavity '" + name + "' has the faces of a mark",
              "leave it away, or `faces: seen`");
     };
-    warn(lumen.plain.of("reach", &Lumen::reach), "reach", "100 um");
-    warn(lumen.plain.of("renewed", &Lumen::renewed), "renewed", "5 min");
+    warn(lumen.plain.of("reach", &Lumen::reach), "reach");
+    warn(lumen.plain.of("renewed", &Lumen::renewed), "renewed");
   }
 }
 

@@ -9,17 +9,14 @@ namespace morula::scenarios {
 template <class T>
 struct Given {
   T value{};
-  std::string text;    ///< as written, or the default's text; empty when neither exists
-  Place place;         ///< of the value; of the enclosing section when it is a default
-  bool given = false;  ///< written in the file (or on the command line)
+  std::string text;                ///< as written, or the default's text; empty when neither exists
+  Place place;                     ///< of the value; of the enclosing section when it is a default
+  bool given = false;              ///< written in the file (or on the command line)
+  const char* fallback = nullptr;  ///< text of the default of a scalar key; null: it has none, or is no scalar
 
   [[nodiscard]] bool known() const { return !text.empty(); }
+  /// Whether another value was given than the default, which the study with all its defaults says, too.
+  [[nodiscard]] bool is_changed() const { return given && (fallback == nullptr || text != fallback); }
 };
-
-/// Whether a key was given another value than its default, which the study with all its defaults says, too.
-template <class T>
-bool is_changed(const Given<T>& value, const char* fallback) {
-  return value.given && value.text != fallback;
-}
 
 }  // namespace morula::scenarios

@@ -95,6 +95,7 @@ bool ReadSection::read_number(const KeySpec& key, const Node& node, double& valu
 void ReadSection::quantity(const KeySpec& key, Given<double>& value) {
   Node storage;
   const Node* node = scalar(key, storage, value.given);
+  value.fallback = key.fallback;
   if (node && read_number(key, *node, value.value)) value.text = node->text;
   value.place = node ? node->place : place_;
 }
@@ -102,6 +103,7 @@ void ReadSection::quantity(const KeySpec& key, Given<double>& value) {
 void ReadSection::whole(const KeySpec& key, Given<std::uint64_t>& value) {
   Node storage;
   const Node* node = scalar(key, storage, value.given);
+  value.fallback = key.fallback;
   value.place = node ? node->place : place_;
   if (!node) return;
   const std::string& text = node->text;
@@ -139,6 +141,7 @@ void ReadSection::whole(const KeySpec& key, Given<std::uint64_t>& value) {
 void ReadSection::word(const KeySpec& key, Given<std::string>& value) {
   Node storage;
   const Node* node = scalar(key, storage, value.given);
+  value.fallback = key.fallback;
   value.place = node ? node->place : place_;
   if (!node) return;
   std::string text = node->text;
@@ -154,6 +157,7 @@ void ReadSection::word(const KeySpec& key, Given<std::string>& value) {
 void ReadSection::text(const KeySpec& key, Given<std::string>& value) {
   Node storage;
   const Node* node = scalar(key, storage, value.given);
+  value.fallback = key.fallback;
   value.place = node ? node->place : place_;
   if (!node) return;
   if (value.given && node->text.empty()) {
@@ -166,6 +170,7 @@ void ReadSection::text(const KeySpec& key, Given<std::string>& value) {
 void ReadSection::flag(const KeySpec& key, Given<bool>& value) {
   Node storage;
   const Node* node = scalar(key, storage, value.given);
+  value.fallback = key.fallback;
   value.place = node ? node->place : place_;
   if (!node) return;
   if (node->text != "true" && node->text != "false") {

@@ -92,7 +92,9 @@ TEST(UnusedKeys, OfATypeThatOthersAreLikeAreThoseOfTheOthers) {
 TEST(UnusedKeys, OfExchangeWithoutARule) {
   EXPECT_THAT(warnings("{a: {}}", "coupling: {hold: 20 min, max_shells: 5}\n"),
               AllOf(HasSubstr("'hold' is of rules"), HasSubstr("'max_shells' is of rules")));
-  EXPECT_THAT(warnings("{a: {}}", "coupling: {hold: 20 min, triggers: [{outside_law: 1.0}]}\n"), Not(HasSubstr("no effect")));
+  EXPECT_THAT(warnings("{a: {}}", "coupling: {hold: 20 min, triggers: [{outside_law: 1.0}]}\n"),
+              HasSubstr("is of regions, and there is none"));
+  EXPECT_THAT(warnings("{a: {}}", "coupling: {hold: 20 min, regions: [{name: r, shape: everything}]}\n"), Not(HasSubstr("no effect")));
 }
 
 TEST(UnusedKeys, CellsThatAreNamedBeyondTheNumberOfShells) {
