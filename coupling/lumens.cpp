@@ -10,6 +10,9 @@
 namespace morula {
 namespace {
 
+/// Part of all directions from the centre of a cavity in which its walls may have come or gone before its faces are found anew.
+constexpr double kWallsMoved = 0.05;
+
 bool carries(const dcm::FaceState& face, std::size_t f, int mark) { return !face.mark.empty() && (face.mark[f] >> mark & 1); }
 
 /// Solid angle of a triangle about the origin, positive where it shows the origin its outside (Van Oosterom & Strackee 1983,
@@ -73,6 +76,35 @@ void mark_by_sight(const Lumen& lumen, std::span<const RigidSurface> obstacles, 
   state.wall_x = others.wall.x, state.wall_y = others.wall.y, state.wall_z = others.wall.z;
 }
 
+/// What the faces of a lumen are, over all ranks.
+struct Walls {
+  double volume = 0.0;      ///< −⅓ Σ A n·(x − center) [µm³]
+  double area = 0.0;        ///< [µm²]
+  double directions = 0.0;  ///< winding number about the centre: part of the sphere of directions
+};
+
+Walls walls_of(const Lumen& lumen, const Tissue& tissue, const Comm& comm) {
+  OrderFreeSum sums[3];
+  for_faces(tissue, lumen.mark, [&](const Triangle& t, const Vec3d& area) {
+    const auto& x = tissue.shells.position;
+    const Vec3d a = x[t[0]] - lumen.center, b = x[t[1]] - lumen.center, c = x[t[2]] - lumen.center;
+    sums[0].add(-dot(area, a) / 3.0);
+    sums[1].add(norm(area));
+    sums[2].add(solid_angle(a, b, c));
+  });
+  double total[3];
+  comm.sum(sums, total);
+  return {total[0], total[1], total[2] / (4.0 * std::numbers::pi)};
+}
+
+/// Whether the faces of a lumen are to be found by now: they were not for a while, or they leave open, or cover twice, where a wall was seen then.
+bool is_due(const Lumen& lumen, const Tissue& tissue, const LumenState& state, const Comm& comm) {
+  const double time = tissue.clock.time;
+  if (time < lumen.from) return false;
+  if (time - state.looked_at >= lumen.renewed * (1.0 - 1e-9)) return true;
+  return lumen.by_sight && std::abs(walls_of(lumen, tissue, comm).directions + state.other_directions - state.covered) > kWallsMoved;
+}
+
 }  // namespace
 
 double lumen_pressure(const Lumen& lumen, const LumenState& state, double time) {
@@ -87,22 +119,12 @@ void measure_lumens(const Model& model, Tissue& tissue, const Comm& comm) {
   for (std::size_t k = 0; k < model.lumens.size(); ++k) {
     const Lumen& lumen = model.lumens[k];
     if (tissue.clock.time < lumen.from) continue;
-    OrderFreeSum sums[3];
-    for_faces(tissue, lumen.mark, [&](const Triangle& t, const Vec3d& area) {
-      const auto& x = tissue.shells.position;
-      const Vec3d a = x[t[0]] - lumen.center, b = x[t[1]] - lumen.center, c = x[t[2]] - lumen.center;
-      sums[0].add(-dot(area, a) / 3.0);
-      sums[1].add(norm(area));
-      sums[2].add(solid_angle(a, b, c));
-    });
-    double total[3];
-    comm.sum(sums, total);
+    const Walls walls = walls_of(lumen, tissue, comm);
     LumenState& state = tissue.lumens[k];
-    const double of_shells = total[2] / (4.0 * std::numbers::pi);
-    if (!lumen.by_sight) state.covered = of_shells;
-    state.area = total[1];
-    const double of_walls = of_shells + state.other_directions;
-    state.volume = state.covered >= kBurst && of_walls > 0.0 ? std::max(0.0, (total[0] + state.before_others) / of_walls) : 0.0;
+    if (!lumen.by_sight) state.covered = walls.directions;
+    state.area = walls.area;
+    const double of_all = walls.directions + state.other_directions;
+    state.volume = state.covered >= kBurst && of_all > 0.0 ? std::max(0.0, (walls.volume + state.before_others) / of_all) : 0.0;
     state.pressure = lumen_pressure(lumen, state, tissue.clock.time);
   }
 }
@@ -114,10 +136,9 @@ void look_into_lumens(const Model& model, std::span<const RigidSurface> obstacle
   for (std::size_t k = 0; k < model.lumens.size(); ++k) {
     const Lumen& lumen = model.lumens[k];
     LumenState& state = tissue.lumens[k];
-    const double time = tissue.clock.time;
-    if (time < lumen.from || time - state.looked_at < lumen.renewed * (1.0 - 1e-9)) continue;
+    if (!is_due(lumen, tissue, state, comm)) continue;
     const bool first = state.looked_at < lumen.from;
-    state.looked_at = time;
+    state.looked_at = tissue.clock.time;
     looked = true;
     if (lumen.by_sight) mark_by_sight(lumen, obstacles, tissue, state, comm);
     if (!first) continue;

@@ -15,8 +15,9 @@ inline constexpr double kGasEnergy = 2.578731;
 /// A cavity whose walls are seen in less than this part of all directions has burst: its fluid has no pressure any more.
 inline constexpr double kBurst = 0.5;
 
-/// Find the faces of the lumens that are due (Lumen::renewed), and measure all lumens: at the beginning of a step. A lumen that keeps its
-/// solute gets its amount when it is first seen. A ray goes from `center` in every direction of a SightMap; faces of shells that show their
+/// Find the faces of the lumens that are due, and measure all lumens: at the beginning of a step. Due is after Lumen::renewed, and as soon as the
+/// faces that were found leave open a twentieth of the directions in which a wall was seen: cells that part have faces between them that were in
+/// contact. Where so much of the walls is no face that it finds, as behind a rim, they are found in every step. A lumen that keeps its solute gets its amount when it is first seen. A ray goes from `center` in every direction of a SightMap; faces of shells that show their
 /// outside and of which at least half is seen bound the cavity; spheres stand in the way, and `obstacles` (those of the study and the walls of the
 /// domain, as Tissue::obstacle_offset has them). Collective.
 void look_into_lumens(const Model& model, std::span<const RigidSurface> obstacles, Tissue& tissue, const Comm& comm);

@@ -206,15 +206,16 @@ void declare_lumen(Section& s, draft::Lumen& l) {
               .example = "60 um",
               .source = "chosen"},
              l.plain, &Lumen::reach);
-  s.quantity({.name = "renewed",
-              .doc = "Time after which the faces in sight are found anew.",
-              .quantity = Q::kTime,
-              .fallback = "5 min",
-              .low = 0.0,
-              .low_open = true,
-              .example = "5 min",
-              .source = "chosen"},
-             l.plain, &Lumen::renewed);
+  s.quantity(
+      {.name = "renewed",
+       .doc = "Time after which the faces in sight are found anew; sooner where they leave open a twentieth of the walls that were seen.",
+       .quantity = Q::kTime,
+       .fallback = "5 min",
+       .low = 0.0,
+       .low_open = true,
+       .example = "5 min",
+       .source = "chosen"},
+      l.plain, &Lumen::renewed);
   s.quantity({.name = "from",
               .doc = "Time from which the cavity is looked at.",
               .quantity = Q::kTime,

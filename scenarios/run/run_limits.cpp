@@ -1,4 +1,5 @@
 #include "core/numbers/number_text.h"
+#include "coupling/lumens.h"
 #include "scenarios/run/run_loop.h"
 
 namespace morula::scenarios {
@@ -68,11 +69,28 @@ Status RunLoop::check_limits(const Measures& m) {
     if (!(m.field_balance[f] <= limits.field_balance)) return crossed(balance, {});
     if (m.field_balance[f] > kWarnAt * limits.field_balance) warn_near_limit(kBalance, balance);
   }
+  tell_open_cavities(m);
   if (m.outside_fields > 0)
     warn_near_limit(kOutsideFields, std::to_string(m.outside_fields) + (m.outside_fields == 1 ? " cell is" : " cells are") +
                                         " beyond the domain at " + time_text(m.time) +
                                         ", where no field is: they see and take what is in its outermost voxels; make the domain larger");
   return {};
+}
+
+/// What a cavity held is gone once it is open, and all checks may pass.
+void RunLoop::tell_open_cavities(const Measures& m) {
+  const Tissue& tissue = simulation_->tissue();
+  std::string names, columns;
+  for (std::size_t k = 0; k < tissue.lumens.size(); ++k) {
+    const Lumen& lumen = study_.model.lumens[k];
+    if (tissue.lumens[k].looked_at < lumen.from || tissue.lumens[k].covered >= kBurst) continue;
+    names += (names.empty() ? "'" : ", '") + lumen.name + "'";
+    columns += (columns.empty() ? "`open_" : ", `open_") + lumen.name + "`";
+  }
+  if (!names.empty())
+    warn_near_limit(kCavityOpen, "open at " + time_text(m.time) + ", and no cavity any more: " + names +
+                                     ". More than half of the directions from the centre meet no wall, and the fluid presses nothing (" +
+                                     columns + " in series.csv)");
 }
 
 void RunLoop::tell_creeping(const StepOutcome& outcome) {

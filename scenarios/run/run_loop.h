@@ -77,12 +77,14 @@ class RunLoop {
     kToAndFro = 64,
     kOutsideFields = 128,
     kCreeping = 256,
-    kDrawnOut = 512
+    kDrawnOut = 512,
+    kCavityOpen = 1024
   };
   void warn_near_limit(Warned what, const std::string& text);
   /// Writes into results.h5; where its content is in the way, once more into a new one. Collective.
   Status write_results(const std::function<Status()>& write);
   void tell_idle_loads();
+  void tell_open_cavities(const Measures& measures);
   /// Warns of a run that hardly moves on: nobody looks at the step of a run over night.
   void tell_creeping(const StepOutcome& outcome);
   void tell_events();

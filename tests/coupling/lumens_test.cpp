@@ -171,6 +171,36 @@ TEST(Lumen, OpensWhenAWallIsTakenAway) {
   EXPECT_LT(tissue.lumens[0].covered, closed - 0.03);
 }
 
+/// Cells that part show faces that were in contact: these bear the pressure at once, not after `renewed`.
+TEST(Lumen, FindsItsFacesAnewAsSoonAsTheyLeaveWallsOpen) {
+  const Model model = model_of_cavity();
+  ShapeLibrary shapes;
+  Tissue tissue = closed_cavity(model, shapes);
+  look_into_lumens(model, {}, tissue, Comm());
+  const auto move_out = [&](double way) {
+    const std::vector<Vec3d> center = walls();
+    for (std::size_t s = 0; s < 12; ++s)
+      for (Vec3d& x : tissue.shells.nodes(s)) x += normalized(center[s]) * way;
+  };
+  move_out(0.1);
+  tissue.clock.time = 1.0;
+  look_into_lumens(model, {}, tissue, Comm());
+  EXPECT_EQ(tissue.lumens[0].looked_at, 0.0) << "a little of the way that it takes";
+  const double area = tissue.lumens[0].area;
+  move_out(6.0);
+  tissue.clock.time = 2.0;
+  measure_lumens(model, tissue, Comm());
+  EXPECT_NEAR(tissue.lumens[0].area, area, 1e-9 * area) << "the same faces";
+  look_into_lumens(model, {}, tissue, Comm());
+  EXPECT_EQ(tissue.lumens[0].looked_at, 2.0);
+  EXPECT_GT(tissue.lumens[0].area, 1.1 * area);
+  std::vector<Vec3d> force(tissue.shells.node_count());
+  add_lumen_forces(model, tissue, 2.0, Comm(), force);
+  double outward = 0.0;
+  for (std::size_t i = 0; i < force.size(); ++i) outward += dot(force[i], tissue.shells.position[i]);
+  EXPECT_NEAR(outward / (3.0 * 0.02 * tissue.lumens[0].volume), tissue.lumens[0].covered, 0.05);  // Σ f·x = 3 P V
+}
+
 /// The body of the first of the twelve is a block with a flat face to the cavity.
 TEST(Lumen, IsClosedByObstaclesThatBearTheirPart) {
   Model model = model_of_cavity();
