@@ -41,7 +41,7 @@ Wish wish(const Model& model, const CellView& cell, std::size_t i, const SwapBod
     const Standing stands = standing(model, reason.number, cell, i, from, bodies.contacts);
     if (stands.is_in()) return {region.body, model.swaps.hold, reason, -stands.outside};
   }
-  double hold = model.swaps.hold;
+  double hold = model.swaps.regions.empty() ? 0.0 : model.swaps.hold;  // the longest of the rules that may have made the cell what it is
   number = 0;
   for (const Trigger& trigger : model.swaps.triggers) {
     const EventReason reason{Cause::kTrigger, false, number++};

@@ -1,6 +1,7 @@
 #include "coupling/who_is_in.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/space/images.h"
@@ -30,12 +31,16 @@ Vec3d tissue_centroid(const Space& space, std::span<const Vec3d> center, const C
   return total[3] > 0.0 ? middle + Vec3d{total[0], total[1], total[2]} * (1.0 / total[3]) : Vec3d{};
 }
 
+/// How many times as long as at time 0 a domain with a course is: regions are carried along with it, as cells are, their size, too.
+double stretch_of_box(const Model& model, double time) { return model.box_volume.empty() ? 1.0 : std::cbrt(model.box_volume.at(time)); }
+
 /// Of the images of a place along the periodic axes that which is deepest in the region, or nearest to it.
-double distance_outside(const Region& region, const Vec3d& from, const Space& space) {
-  if (!region.shape->repeats || !space.any_periodic()) return region.shape->distance(region, from);
+double distance_outside(const Region& region, const Vec3d& from, const Space& space, double stretch) {
+  const auto distance = [&](const Vec3d& place) { return stretch * region.shape->distance(region, place * (1.0 / stretch)); };
+  if (!region.shape->repeats || !space.any_periodic()) return distance(from);
   const Vec3d near = space.nearest_image(from);  // what a region follows may have gone round the domain
   double least = std::numeric_limits<double>::infinity();
-  for_boxes_around(space, [&](const Vec3d& shift) { least = std::min(least, region.shape->distance(region, near + shift)); });
+  for_boxes_around(space, [&](const Vec3d& shift) { least = std::min(least, distance(near + shift)); });
   return least;
 }
 
@@ -43,10 +48,14 @@ double distance_outside(const Region& region, const Vec3d& from, const Space& sp
 
 std::vector<Vec3d> centers_of_regions(const Model& model, const Tissue& tissue, std::span<const Vec3d> center, const Comm& comm) {
   const Vec3d of_tissue = needs_center(model.swaps) ? tissue_centroid(model.space, center, comm) : Vec3d{};
+  const double stretch = stretch_of_box(model, tissue.clock.time);
   std::vector<Vec3d> out;
+  const Vec3d middle = model.space.box.center();
   for (const Region& region : model.swaps.regions) {
-    out.push_back(region.center);
-    if (region.follow_tissue) out.back() += of_tissue;
+    if (region.follow_tissue)
+      out.push_back(region.center * stretch + of_tissue);
+    else
+      out.push_back(stretch == 1.0 ? region.center : middle + (region.center - middle) * stretch);
     if (region.obstacle >= 0) out.back() += model.obstacles[static_cast<std::size_t>(region.obstacle)].way(0.0, tissue.clock.time);
   }
   return out;
@@ -59,7 +68,7 @@ Standing standing(const Model& model, std::size_t number, const CellView& cell, 
   if (region.shape->of_cell != nullptr)
     out = region.shape->of_cell(region, cell);
   else if (region.shape->has_border())
-    out = {distance_outside(region, from, model.space), region.margin};
+    out = {distance_outside(region, from, model.space, stretch_of_box(model, cell.time())), region.margin};
   else if (number < contacts.size() && !contacts[number].empty())
     out.outside = contacts[number][i] - region.contacts;
   if (cell.row().body != region.body) out.margin = 0.0;

@@ -50,7 +50,9 @@ void declare_region(Section& s, draft::Region& r) {
           .source = "chosen"},
          r.body);
   s.quantity({.name = "margin",
-              .doc = "A cell leaves the region only this far beyond its border.",
+              .doc = "Up to this far beyond its border a cell keeps the body that the region gives; it leaves beyond. In a box that "
+                     "follows a course regions "
+                     "go along with it, their size, too; the margin stays.",
               .quantity = Q::kLength,
               .fallback = "3 um",
               .low = 0.0,
@@ -106,7 +108,7 @@ void declare_trigger(Section& s, draft::Trigger& t) {
   s.text({.name = "phase", .doc = "Instead of promote and demote: cells in this phase of their cycle are shells.", .example = "M"},
          t.phase);
   s.quantity({.name = "hold",
-              .doc = "No second exchange of body within this time.",
+              .doc = "No second exchange of body within this time; a cell goes back after the longest of the holds of rules.",
               .quantity = Q::kTime,
               .fallback = "30 min",
               .low = 0.0,
@@ -211,7 +213,7 @@ void declare_coupling(Section& s, draft::Coupling& c) {
       {.name = "hold",
        .doc = "No second exchange of body by a region within this time. Daughters keep their body until they have parted (half an hour), "
               "dying cells keep it, and shells that would be packed beyond the law of spheres stay shells; they are asked again when this "
-              "time is over.",
+              "time is over (without regions, after the longest hold of a trigger).",
        .quantity = Q::kTime,
        .fallback = "10 min",
        .low = 0.0,

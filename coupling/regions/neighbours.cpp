@@ -59,7 +59,8 @@ std::shared_ptr<const RegionShape> neighbours_region() {
              .example = "needle"}},
            {Kind::kQuantity,
             {.name = "cells",
-             .doc = "Of `neighbours`: within so many contacts. A cell leaves when it is one more away than that.",
+             .doc = "Of `neighbours`: within so many contacts. One contact more away a cell keeps the body that the region gives; it "
+                    "leaves beyond.",
              .required = true,
              .low = 1.0,
              .high = 100.0,

@@ -97,6 +97,58 @@ TEST(TriggerValues, CellsInAPhaseAreShells) {
   EXPECT_EQ(run_to(text, 3000.0)->tissue().shells.size(), 0u);
 }
 
+/// The hold of regions (10 min) is none of a study without one.
+TEST(TriggerValues, CellsGoBackAfterTheHoldOfTheirTrigger) {
+  const std::string text =
+      "schema: 1\nstudy: phases\nseed: 1\ntime: {end: 1 h}\ndomain: {size: [200 um, 200 um, 200 um]}\n"
+      "cell_types:\n  cell: {radius: 6 um, dcm: {nodes: 42}, cycle: {model: phases, growth: none, phases: "
+      "{first: {duration: 20 min}, second: {duration: 3 min}, third: {duration: 10 h}}}}\n"
+      "initial:\n  - {type: cell, count: 1, fill: sphere, radius: 40 um, age: birth}\n"
+      "coupling: {triggers: [{phase: second, hold: 1 min}]}\noutput: {report: false}\n";
+  EXPECT_EQ(run_to(text, 1370.0)->tissue().shells.size(), 1u);
+  EXPECT_EQ(run_to(text, 1510.0)->tissue().shells.size(), 0u);
+}
+
+/// Cells that bear 9.39 Pa when the run begins (Hertz: R* 3 µm, δ 1.8 µm) bear it from before: it is no rise, and more than 5 Pa.
+TEST(TriggerValues, WhatPressesCellsAtTheStartIsThere) {
+  const auto shells_with = [](const std::string& trigger) {
+    const auto study = test::read(
+        "schema: 1\nstudy: pair\ntime: {end: 5 min}\ndomain: {size: [60 um, 60 um, 60 um]}\n"
+        "cell_types:\n  cell: {radius: 6 um, cycle: {model: none}, adhesion: {cell: 0 J/m^2}, cbm: {law: hertz, packing: none}, dcm: "
+        "{nodes: 42}}\n"
+        "initial:\n  - {type: cell, at: [[-5.1 um, 0 um, 0 um], [5.1 um, 0 um, 0 um]]}\n"
+        "coupling: {triggers: [{" +
+        trigger + "}]}\noutput: {report: false}\nlimits: {overlap: 5 um}\n");
+    EXPECT_TRUE(study.ok()) << study.error().text();
+    auto made = test::simulation_of(*study);
+    EXPECT_TRUE(made.ok() && (*made)->first_swaps().ok());
+    std::size_t most = (*made)->tissue().shells.size();
+    for (const double until : {1.0, 30.0}) {
+      while ((*made)->tissue().clock.time < until) EXPECT_TRUE((*made)->step(until).ok());
+      most = std::max(most, (*made)->tissue().shells.size());
+    }
+    return most;
+  };
+  EXPECT_EQ(shells_with("promote: pressure_rise > 5 Pa, demote: pressure_rise < -5 Pa, hold: 1 min"), 0u);
+  EXPECT_EQ(shells_with("promote: pressure < 5 Pa, demote: pressure > 8 Pa, hold: 1 min"), 0u);
+  EXPECT_EQ(shells_with("promote: pressure > 9 Pa, demote: pressure < 1 Pa, hold: 1 min"), 2u);
+}
+
+/// In a box that shrinks to 0.3 of its volume regions go along: 15 µm from the middle is 10 µm then, and the cell of the other half never is within it.
+TEST(RegionsInAChangingBox, GoAlongWithIt) {
+  const auto made = run_to(
+      "schema: 1\nstudy: halves\ntime: {end: 1 h}\n"
+      "domain: {size: [60 um, 60 um, 60 um], boundary: periodic, course: [{time: 0 s, volume: 1}, {time: 40 min, volume: 0.3}]}\n"
+      "cell_types:\n  cell: {radius: 6 um, cycle: {model: none}, dcm: {nodes: 42}}\n"
+      "initial:\n  - {type: cell, at: [[15 um, 0 um, 0 um], [-28.5 um, 0 um, 0 um]]}\n"
+      "coupling: {regions: [{name: right, shape: box, center: [15 um, 0 um, 0 um], size: [30 um, 60 um, 60 um]}]}\noutput: {report: "
+      "false}\n",
+      2700.0);
+  const Tissue& tissue = made->tissue();
+  ASSERT_EQ(tissue.shells.size(), 1u);
+  for (const BodyOfRow& body : bodies_of(tissue.cells)) EXPECT_EQ(body.is_shell, made->centers()[body.row].x > 0.0);
+}
+
 class TriggersAtTheStart : public test::OwnParts {
  protected:
   TriggersAtTheStart() : OwnParts([](Laws&) {}) {}

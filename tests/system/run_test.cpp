@@ -297,17 +297,21 @@ TEST(Resume, RefusesInputsAndCheckpointsOfAnotherRun) {
 }
 
 TEST(Resume, FromAnOlderCheckpointMakesANewRunThatEndsInTheSameBits) {
-  const TestFolder folder;
-  folder.write("study.yaml", changed(sphere_study(), "checkpoint: 30 min", "checkpoint: 10 min"));
-  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "first"}, folder.path()).exit_code, 0);
-  std::vector<fs::path> checkpoints(fs::directory_iterator(folder / "first/checkpoints"), fs::directory_iterator{});
-  const fs::path older = *std::min_element(checkpoints.begin(), checkpoints.end());
-  const std::string before = read_text(folder / "first/series.csv");
-  const Outcome again = run_morula({"resume", "first", "--from", older.stem().string(), "--out", "second"}, folder.path());
-  ASSERT_EQ(again.exit_code, 0) << again.all();
-  EXPECT_EQ(again.out, "second\n");
-  EXPECT_EQ(read_text(folder / "first/series.csv"), before) << "what the first run has found stays";
-  EXPECT_EQ(info_of(folder / "second")["state_hash"], info_of(folder / "first")["state_hash"]);
+  const std::string halfway = changed(sphere_study(), "checkpoint: 30 min", "checkpoint: 10 min");
+  const std::string start = changed(hybrid_study(), "end: 40 min", "end: 10 min");  // its older checkpoint is that of time 0
+  for (const std::string& text : {halfway, start}) {
+    const TestFolder folder;
+    folder.write("study.yaml", text);
+    ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "first"}, folder.path()).exit_code, 0);
+    std::vector<fs::path> checkpoints(fs::directory_iterator(folder / "first/checkpoints"), fs::directory_iterator{});
+    const fs::path older = *std::min_element(checkpoints.begin(), checkpoints.end());
+    const std::string before = read_text(folder / "first/series.csv");
+    const Outcome again = run_morula({"resume", "first", "--from", older.stem().string(), "--out", "second"}, folder.path());
+    ASSERT_EQ(again.exit_code, 0) << again.all();
+    EXPECT_EQ(again.out, "second\n");
+    EXPECT_EQ(read_text(folder / "first/series.csv"), before) << "what the first run has found stays";
+    EXPECT_EQ(info_of(folder / "second")["state_hash"], info_of(folder / "first")["state_hash"]);
+  }
 }
 
 TEST(Run, ThatCrossesALimitFailsWithExitFour) {
