@@ -1,5 +1,7 @@
 #include "scenarios/run/cost_model.h"
 
+#include <omp.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -217,7 +219,9 @@ Counts count_cells(const Study& study, Tissue& tissue, double time) {
     ++out.of_type[tissue.cells.rows[body.row].type];
     center.push_back(center_of(tissue, body));
   }
-  for (const SwapOrder& order : choose_swaps(study.model, tissue, {center}, Comm())) {
+  Model model = study.model;
+  model.box_volume = {};  // the cells are where they are at first, and so is the box
+  for (const SwapOrder& order : choose_swaps(model, tissue, {center}, Comm())) {
     const std::int64_t change = order.to == BodyKind::kShell ? 1 : -1;
     out.shells += change;
     out.nodes += change * nodes_of(study.model.types[tissue.cells.rows[order.row].type]);
@@ -283,8 +287,21 @@ double bytes_of(const Voxels& voxels) {
   return kBytesPerVoxel * static_cast<double>(voxels.all) + kBytesToSolve * static_cast<double>(voxels.largest);
 }
 
+/// What is told is for one core: fields take as many threads as there are, whose waiting for each other would count as work.
+class OneThread {
+ public:
+  OneThread() { omp_set_num_threads(1); }
+  ~OneThread() { omp_set_num_threads(before_); }
+  OneThread(const OneThread&) = delete;
+  OneThread& operator=(const OneThread&) = delete;
+
+ private:
+  int before_ = omp_get_max_threads();
+};
+
 /// Steps for kSampleTime, and until there are some. Fields of many voxels are tried with larger ones, and cost as many times more as these are fewer.
 Result<Tried> try_steps(const Study& study, Tissue tissue) {
+  const OneThread one;
   Model model = study.model;
   MORULA_TRY_ASSIGN(const Voxels voxels, count_voxels(model));
   const double fewer = std::max(1.0, static_cast<double>(voxels.all) / kSampledVoxels);

@@ -192,7 +192,8 @@ TEST(Multigrid, KeepsItsBitsOnAnyNumberOfThreads) {
   for (std::size_t n = 0; n < 2; ++n) {
     omp_set_num_threads(n == 0 ? 1 : 3);
     FieldSpec spec = spec_of(2000.0, 10.0);
-    Problem p(spec, box({400, 410, 330}), 5.0);
+    Problem p(spec, box({560, 530, 570}), 5.0);  // 7 × 7 × 8 bricks
+    static_assert(7 * 7 * 8 >= kBricksWorthThreads, "threads share them");
     z[n] = p.preconditioned(random_vector(p.size(), 3));
   }
   omp_set_num_threads(before);

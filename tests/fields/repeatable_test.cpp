@@ -13,7 +13,7 @@ namespace {
 
 struct Case {
   Space space = cube(200.0);
-  FieldSpec spec = spec_of(2000.0, 5.0, 0.2);  // 40³ voxels in 125 bricks: enough for threads to share
+  FieldSpec spec = spec_of(2000.0, 3.5, 0.2);  // 58³ voxels in 512 bricks: enough for threads to share
   std::vector<CellSource> cells;
 
   Case() {
