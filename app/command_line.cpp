@@ -289,6 +289,7 @@ Result<std::variant<Options, Answer>> read_command_line(const std::vector<std::s
   std::vector<std::string> verbs;
   for (const CLI::App* verb : program.get_subcommands({})) verbs.push_back(verb->get_name());
   if (arguments.empty()) return Error{ErrorKind::kInput, "no verb given", scenarios::suggest("", verbs) + "; see `morula --help`"};
+  if (arguments[0] == "help" && arguments.size() == 1) return std::variant<Options, Answer>(Answer{program.help()});
   if (arguments[0][0] != '-' && std::find(verbs.begin(), verbs.end(), arguments[0]) == verbs.end())
     return Error{ErrorKind::kInput, "unknown verb '" + arguments[0] + "'", scenarios::suggest(arguments[0], verbs)};
   try {

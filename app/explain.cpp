@@ -44,6 +44,7 @@ Status explain(const ExplainOptions& options, const Context& context) {
     for (std::string& path : scenarios::study_key_paths(*context.laws)) {
       const std::size_t dot = path.rfind('.');
       if (dot != std::string::npos) known.push_back(path.substr(dot + 1));
+      if (path.ends_with(".<name>")) known.push_back(path.substr(0, dot));  // of things with names the section
       known.push_back(std::move(path));
     }
     for (std::string& name : observable_names({}, *context.laws)) known.push_back(std::move(name));

@@ -170,6 +170,7 @@ std::string description_of(const Snapshot::Variable& variable) {
   if (variable.name == "own_mesh/volume_change") return "largest relative change of volume of a pass";
   if (variable.name == "own_mesh/off_surface") return "farthest that a pass has put a node off the surface, in mean edges";
   if (variable.name == "outside_law") return "how far the cell as a sphere is beyond the range of its laws; 1 at the end of the range";
+  if (variable.name.starts_with("polarity/")) return "direction of the cell, of length 1, in components; 0 where it has none";
   return "state of the cell, of a law of the study";
 }
 

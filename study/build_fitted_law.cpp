@@ -88,7 +88,9 @@ void build_fitted_law(BuildContext& c, const std::string& /*type_name*/, draft::
   sphere.young = t.sphere_young.value, sphere.poisson = t.sphere_poisson.value;
   if (fitted->adhesion_of_shells > 0.0) sphere.adhesion_factor = fitted->adhesion / fitted->adhesion_of_shells;
   const FittedLaw::Spheres& spheres = table ? fitted->of_table : fitted->of_jkr;
-  sphere.approach_factor = spheres.approach_factor, sphere.along_factor = spheres.along_factor;
+  if (spheres.approach)
+    take(c, "friction.approach", *spheres.approach, "", t.sphere_friction.of("approach", &cbm::SphereParameters::approach_factor));
+  if (spheres.along) take(c, "friction.along", *spheres.along, "", t.sphere_friction.of("along", &cbm::SphereParameters::along_factor));
   sphere.crowded_area = spheres.area;
   sphere.fitted = fitted->overlap;
   if (fitted->with_shells) {

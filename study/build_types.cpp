@@ -202,6 +202,7 @@ void build_cell_types(BuildContext& c) {
     type.sphere.poisson = t.sphere_poisson.value;
     set_sphere_law(c, t, type.sphere);
     build_fitted_law(c, name, t, type.sphere);
+    t.sphere_friction.write_to(type.sphere);
     t.with_shells.write_to(type.sphere.with_shells);
     cbm::PackingCurve packing = build_packing(c, name, t);
     if (type.sphere.packing.empty()) type.sphere.packing = std::move(packing);

@@ -152,7 +152,7 @@ void check_rest_of_bodies(BuildContext& c) {
         651, t.sphere_young.given ? t.sphere_young.place : place,
         "two spheres of '" + name + "' rest " + number_text("%.2f", 2.0 - spheres) +
             " R apart, and two drops of the tension and adhesion of its shells " + number_text("%.2f", 2.0 - shells) +
-            " R: where a cell changes its body, its neighbours move",
+            " R: where a cell changes its body, it and its neighbours move",
         "`morula calibrate jkr " + name + " STUDY` finds a law of spheres that rest like its shells (`cbm: {law: fitted}`)");
   }
 }
@@ -178,13 +178,42 @@ void note_spheres_that_do_not_roll(BuildContext& c) {
     const auto& [name, place, t] = c.draft.cell_types[i];
     const CellType& type = c.study.model.types[i];
     const ContactPair& pair = c.study.model.pair(i, i);
-    const bool rolls = pair.tangential_friction < std::max(kMuch, kAlong * pair.normal_friction) || has_fitted_law(c, i) ||
-                       type.fluctuations.energy > 0.0 || type.migration.acts();
+    const double along = pair.tangential_friction * type.sphere.along_factor;
+    const bool rolls = along < std::max(kMuch, kAlong * pair.normal_friction) || has_fitted_law(c, i) || type.fluctuations.energy > 0.0 ||
+                       type.migration.acts();
     if (rolls || !may_divide(c, i) || !may_be_sphere(c, i)) continue;
     c.study.notes.push_back(
         "spheres of '" + name +
-        "' divide and rub as much along their contacts as across: they do not roll over each other, and a cluster that grows from "
-        "few cells branches (README of the study `spheroid`). `friction: {cell_cell_tangential: 0 N s/m^3}` or a fitted law lets them");
+        "' divide and rub much along their contacts: they do not roll over each other, and a cluster that grows from "
+        "few cells branches (README of the study `spheroid`). `cbm: {friction: {along: 0.03}}` or a fitted law lets them");
+  }
+}
+
+/// Fastest that an obstacle moves [µm/s], to a hundredth of the run.
+double fastest_of(const ObstacleSpec& obstacle, double end) {
+  constexpr int kParts = 100;
+  double most = norm(obstacle.velocity);
+  for (int k = 0; k < kParts && !obstacle.distance.empty(); ++k)
+    most = std::max(most, norm(obstacle.way(end * k / kParts, end * (k + 1) / kParts)) * kParts / end);
+  return most;
+}
+
+/// A plate that comes near pushes cells by the friction of their approach before it touches them any deeper, and its told force has no friction in it.
+void note_obstacles_whose_friction_bears(BuildContext& c) {
+  constexpr double kMuch = 0.03;  // [kPa]: the pressure of a drop with the default tension
+  const Model& model = c.study.model;
+  for (std::size_t o = 0; o < model.obstacles.size(); ++o) {
+    if (!model.obstacles[o].moves()) continue;
+    const double speed = fastest_of(model.obstacles[o], c.study.time.end);
+    double friction = 0.0;
+    for (std::size_t t = 0; t < model.types.size(); ++t)
+      friction = std::max(friction, model.pair(t, model.types.size() + o).normal_friction);
+    if (!(friction * speed > kMuch)) continue;
+    const std::string& name = model.obstacles[o].name;
+    c.study.notes.push_back("'" + name + "' moves by up to " + number_text("%.2g", 1e3 * speed) +
+                            " nm/s: friction with cells that come near or part bears up to " + number_text("%.2g", friction * speed) +
+                            " kPa, which `force_z_" + name + "` and the others leave out; `friction: {obstacle: " +
+                            number_text("%.1e", 1e9 * 0.9 * kMuch / speed) + " N s/m^3}` or less where forces on it are read");
   }
 }
 
@@ -217,6 +246,7 @@ void check_bodies(BuildContext& c) {
   check_rest_of_bodies(c);
   check_water_of_bodies(c);
   note_spheres_that_do_not_roll(c);
+  note_obstacles_whose_friction_bears(c);
   check_ways_of_spheres(c);
 }
 

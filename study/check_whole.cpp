@@ -5,6 +5,7 @@
 
 #include "core/ball.h"
 #include "core/mesh/renewal/own_mesh.h"
+#include "coupling/behaviours/balanced_growth.h"
 #include "coupling/observables/observable.h"
 #include "dcm/derived_parameters.h"
 #include "study/build.h"
@@ -27,6 +28,32 @@ double mean_edge(std::uint64_t nodes) {
 
 namespace {
 
+/// Most divisions one after the other from the start to the end of the study of cells that do not grow (founders may be old already); 0 of those that do.
+int divisions_without_growth(const BuildContext& c, std::size_t type) {
+  const CellType& cells = c.study.model.types[type];
+  if (!cells.cycles || cells.cycle.growth->grows) return 0;
+  const double cycles = population_growth_rate(cells) * c.study.time.end / std::numbers::ln2;
+  return static_cast<int>(std::ceil(std::min(100.0, cycles) - 1e-6));
+}
+
+/// Cells that divide and do not grow have ever smaller meshes: W503 where the range fits those of the start alone.
+void warn_of_shrinking_meshes(BuildContext& c, std::size_t type, double range, double finest, const Place& at) {
+  const int divisions = divisions_without_growth(c, type);
+  const double until = 3.0 * std::log2(0.56 * finest / range);  // edges go with 2^(−n/3)
+  if (!(divisions > until)) return;
+  const int first = static_cast<int>(until) + 1;
+  c.diagnostics.warning(
+      503, at,
+      "cells of '" + c.draft.cell_types[type].name + "' divide without growing, up to " + std::to_string(divisions) + " times: from the " +
+          std::to_string(first) +
+          (first == 1   ? "st"
+           : first == 2 ? "nd"
+           : first == 3 ? "rd"
+                        : "th") +
+          " division on the contact range is more than half of the mean edge of a daughter, and contact areas are told too large",
+      "a range that fits the smallest cells, with more `nodes`");
+}
+
 /// Whether a range fits the meshes of the types that it holds for; empty `names`: of all.
 void check_range(BuildContext& c, const Given<double>& range, const std::vector<std::string>& names, const char* key) {
   if (!range.known()) return;
@@ -39,8 +66,9 @@ void check_range(BuildContext& c, const Given<double>& range, const std::vector<
     // A mesh of its own is finer where the surface is curved.
     const double finest = t.own_mesh.value ? OwnMeshLimits{}.finest * edge : edge;
     const bool too_long = range.value > 0.56 * finest, too_short = range.value < 0.25 * edge;
-    if (!too_long && !too_short) continue;
     const Place at = range.given ? range.place : t.nodes.given ? t.nodes.place : place;
+    if (!too_long) warn_of_shrinking_meshes(c, type, range.value, finest, at);
+    if (!too_long && !too_short) continue;
     const bool of_own = too_long && t.own_mesh.value;
     const std::string what = "the contact range (" + range.text + ") is " + (too_long ? "more than half" : "less than a quarter") +
                              " of the " + (of_own ? "finest" : "mean") + " edge (" +

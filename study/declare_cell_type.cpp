@@ -58,20 +58,19 @@ void declare_life(Section& s, draft::CellType& t) {
 }
 
 void declare_friction(Section& s, draft::CellType& t) {
-  s.quantity(
-      {.name = "cell_cell",
-       .doc =
-           "Friction with cells per contact area; for two types the mean of theirs. Surfaces of shells zip together, two spheres push "
-           "their whole "
-           "contact against it: with the same value they come together some twenty times as slowly, unless their law was fitted to shells "
-           "(`cbm: {law: fitted}`), which takes that off, from their contacts with shells, too.",
-       .quantity = Q::kFrictionPerArea,
-       .fallback = "5e10 N s/m^3",
-       .low = 0.0,
-       .high = 1e6,
-       .example = "5e10 N s/m^3",
-       .source = kTable1},
-      t.friction_cell_cell);
+  s.quantity({.name = "cell_cell",
+              .doc = "Friction with cells per contact area; for two types the mean of theirs. Surfaces of shells zip together and roll "
+                     "past each other, "
+                     "two spheres push and rub their whole contact: how much of it a sphere has, against shells, too, is `cbm: {friction: "
+                     "...}`, or told "
+                     "by a law that was fitted to shells (`cbm: {law: fitted}`).",
+              .quantity = Q::kFrictionPerArea,
+              .fallback = "5e10 N s/m^3",
+              .low = 0.0,
+              .high = 1e6,
+              .example = "5e10 N s/m^3",
+              .source = kTable1},
+             t.friction_cell_cell);
   s.quantity({.name = "obstacle",
               .doc = "Friction with obstacles per contact area.",
               .quantity = Q::kFrictionPerArea,
@@ -94,7 +93,9 @@ void declare_friction(Section& s, draft::CellType& t) {
                 .source = "chosen"},
                value);
   };
-  tangential("cell_cell_tangential", "Along the contact; `cell_cell` then is the friction of approach. `same`: both alike.",
+  tangential("cell_cell_tangential",
+             "Along the contact; `cell_cell` then is the friction of approach. `same`: both alike. Spheres have `cbm: {friction: {along: "
+             "...}}` of it.",
              t.tangential_cell_cell);
   tangential("obstacle_tangential", "Along the obstacle; `obstacle` then is the friction across. `same`: both alike.",
              t.tangential_obstacle);
@@ -134,7 +135,32 @@ void declare_sphere_law(Section& c, draft::CellType& t) {
           .example = "jkr",
           .source = "decision 0047"},
          t.sphere_form);
-  declare_law_keys(c, choosable_sphere_laws(c.laws()), {"law", "young", "poisson", "packing", "file", "form", "with_shells"}, t.sphere_own);
+  declare_law_keys(c, choosable_sphere_laws(c.laws()), {"law", "young", "poisson", "packing", "file", "form", "friction", "with_shells"},
+                   t.sphere_own);
+}
+
+/// How much of the friction with cells a sphere has.
+void declare_sphere_friction(Section& s, draft::CellType& t) {
+  s.quantity(
+      {.name = "approach",
+       .doc = "Factor on `cell_cell`, across the contact. Shells of the same friction come together ten to twenty times as fast as spheres "
+              "with 1: their surfaces zip.",
+       .fallback = "1",
+       .low = 0.0,
+       .high = 100.0,
+       .example = "0.08",
+       .source = "chosen; fitted to pairs of shells: 0.046 to 0.093 (decision 0064)"},
+      t.sphere_friction, &cbm::SphereParameters::approach_factor);
+  s.quantity(
+      {.name = "along",
+       .doc = "Factor on `cell_cell_tangential`, along the contact. With 1 spheres stay where they first touched, and few cells that grow "
+              "become a bush; 0.03 is what tissues of shells yield like.",
+       .fallback = "1",
+       .low = 0.0,
+       .high = 100.0,
+       .example = "0.03",
+       .source = "chosen; fitted to balls of shells that plates press: 0.016 to 0.061 (decisions 0077, 0086)"},
+      t.sphere_friction, &cbm::SphereParameters::along_factor);
 }
 
 /// What a sphere is to a shell, beside its modulus and W.
@@ -261,7 +287,13 @@ void declare_cell_type(Section& s, draft::CellType& t) {
   s.group({.name = "cbm", .doc = "The cell as a sphere."}, present, [&t](Section& c) {
     declare_sphere_law(c, t);
     declare_packing(c, t);
-    bool contact = false;
+    bool rubs = false, contact = false;
+    c.group(
+        {.name = "friction",
+         .doc = "How much of the type's friction with cells, spheres and shells, these spheres have: they have no surface that zips "
+                "and no spin. For spheres of two types it is the geometric mean of their factors. `law: fitted` takes both from its file.",
+         .example = "{along: 0.03}"},
+        rubs, [&t](Section& f) { declare_sphere_friction(f, t); });
     c.group(
         {.name = "with_shells",
          .doc =

@@ -62,7 +62,9 @@ void declare_pair(Section& s, draft::ContactPair& pair) {
               .example = "5e10 N s/m^3"},
              pair.normal_friction);
   s.quantity({.name = "tangential_friction",
-              .doc = "Friction against sliding, per contact area; without it as `friction` of the cell types says.",
+              .doc = "Friction against sliding, per contact area; without it as `friction` of the cell types says. Of both, spheres have "
+                     "the part that "
+                     "`cbm: {friction: ...}` says.",
               .quantity = Q::kFrictionPerArea,
               .low = 0.0,
               .high = 1e6,

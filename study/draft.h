@@ -144,6 +144,7 @@ struct CellType : ShellKeys {
   Given<double> sphere_young, sphere_poisson;
   Given<std::string> sphere_file, sphere_form;  ///< of `law: fitted`
   PlainKeys<cbm::WithShells> with_shells;
+  PlainKeys<cbm::SphereParameters> sphere_friction;  ///< factors on friction with cells
   Given<std::string> packing_law;
   Given<double> packing_bulk_modulus;
   std::vector<Named<PackingKnot>> packing_knots;

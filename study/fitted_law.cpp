@@ -206,8 +206,8 @@ cbm::CrowdedKnot area_knot(const AreaKnot& knot) { return {knot.pairs.value, kno
 
 FittedLaw::Spheres spheres_of(const Beside& read, Diagnostics& diagnostics) {
   FittedLaw::Spheres out;
-  if (read.approach.given) out.approach_factor = read.approach.value.value;
-  out.along_factor = read.along.given ? read.along.value.value : out.approach_factor;
+  if (read.approach.given) out.approach = read.approach.value.value;
+  out.along = read.along.given ? read.along.value.value : out.approach;
   out.packing = curve_through<cbm::PackingCurve>(read.packing, &packing_knot, 530, "packing", diagnostics);
   out.area = curve_through<cbm::CrowdedArea>(read.area, &area_knot, 533, "contact_area", diagnostics);
   return out;

@@ -27,10 +27,11 @@ struct FittedLaw {
 
   /// What spheres of a pair law have beside it.
   struct Spheres {
-    cbm::PackingCurve packing;     ///< empty: packings were not fitted
-    cbm::CrowdedArea area;         ///< contact areas among many; empty: not fitted
-    double approach_factor = 1.0;  ///< friction of such a sphere with cells over that of the shells, across their contact; 1: not fitted
-    double along_factor = 1.0;     ///< along it, likewise; not fitted: that of approach stands for it
+    cbm::PackingCurve packing;  ///< empty: packings were not fitted
+    cbm::CrowdedArea area;      ///< contact areas among many; empty: not fitted
+    /// Friction of such a sphere with cells over that of the shells, across their contact and along it; none: not fitted. Where `along` alone was
+    /// not, that of approach stands for it.
+    std::optional<double> approach, along;
   };
   Spheres of_jkr, of_table;
   std::optional<CellFriction> friction;  ///< of the shells with which friction was fitted

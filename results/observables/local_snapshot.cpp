@@ -24,6 +24,15 @@ void add_surroundings(const Model& model, const Tissue& tissue, Snapshot& out) {
   }
 }
 
+/// Directions of the cells, where any type has one.
+void add_polarity(const Model& model, const Cells& cells, Snapshot& out) {
+  if (std::ranges::none_of(model.types, [](const CellType& type) { return type.polarity.set; })) return;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Snapshot::Variable& told = out.variables.emplace_back(Snapshot::Variable{std::string("polarity/") + "xyz"[axis], "1", {}});
+    for (std::size_t i = 0; i < cells.size(); ++i) told.values.push_back(cells.optional.polarity[i][axis]);
+  }
+}
+
 }  // namespace
 
 std::vector<Snapshot::Obstacle> domain_walls(const Space& space) {
@@ -73,6 +82,7 @@ Snapshot local_snapshot(Simulation& simulation) {
   }
   Snapshot::Variable& outside = out.variables.emplace_back(Snapshot::Variable{"outside_law", "1", {}});
   for (const BodyOfRow& owned : bodies_of(tissue.cells)) outside.values.push_back(balls.outside_law[owned.place(tissue.shells.size())]);
+  add_polarity(model, tissue.cells, out);
   std::vector<const Topology*> known;
   for (const BodyOfRow& owned : bodies_of(tissue.cells)) {
     const std::size_t i = owned.row, body = owned.place(tissue.shells.size()), shell = owned.number;

@@ -181,8 +181,9 @@ std::vector<Measure> aspiration_measures() {
       at_outputs("aspiration.suction", "suction", "Suction in the pipette.", "", Quantity::kPressure,
                  [](const Aspirated& a) { return suction_at(a.load, a.time); }),
       at_outputs("aspiration.length", "tongue over the pipette's radius",
-                 "Length of the tongue of a cell beyond the narrowest place of the pipette, over the radius there.", "L/Rp",
-                 Quantity::kNumber, [](const Aspirated& a) { return tongue(a.now, a.load, a.mouth) / a.mouth.radius; }),
+                 "Length of the tongue of a cell (the first that the load is on) beyond the narrowest place of the pipette, over the "
+                 "radius there.",
+                 "L/Rp", Quantity::kNumber, [](const Aspirated& a) { return tongue(a.now, a.load, a.mouth) / a.mouth.radius; }),
       at_outputs("aspiration.rate", "growth of the tongue in a second over the pipette's radius",
                  "Growth of the tongue since the output before, per time and over the pipette's radius.", "dL/dt/Rp", Quantity::kRate,
                  [](const Aspirated& a) {

@@ -8,6 +8,7 @@
 
 #include "core/numbers/joined.h"
 #include "core/numbers/number_text.h"
+#include "core/shell_word.h"
 #include "results/checkpoint_folder.h"
 #include "results/damaged_file.h"
 #include "results/file_io.h"
@@ -433,7 +434,14 @@ Error RunLoop::fail(Error error, bool state_is_sound) {
   // checkpoint: a run that goes on from there tells it anew if it meets it again.
   if (state_is_sound && error.kind == ErrorKind::kPhysics && agree(write_events(), comm_).ok()) (void)checkpoint().ok();
   warn(error.message);
-  (void)write_events().ok();
+  if (error.kind == ErrorKind::kPhysics) {  // of all ranks
+    if (agree(write_events(), comm_).ok() && write_tables().ok()) {
+      if (!error.help.empty()) error.help += "; ";
+      error.help += "`morula plot " + shell_word(folder_.path().string()) + "` draws what there is";
+    }
+  } else {
+    (void)write_events().ok();
+  }
   record_.state = RunState::kFailed;
   record_.exit_code = exit_code(error.kind);
   record_.message = error.message;

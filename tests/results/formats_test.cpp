@@ -34,6 +34,7 @@ cell_types:
     cycle: {model: phases, duration: 3 min}
   lung:
     radius: 6 um
+    polarity: {start: [0, 3, 4]}
     dcm: {nodes: 162, renew_mesh_below: 0.4, own_mesh: true, nucleus: {kind: rigid, radius: 2 um}}
   skin:
     radius: 6 um
@@ -150,6 +151,20 @@ TEST_F(Formats, KindsAreEnumerations) {
   EXPECT_NE(std::find(kinds.begin(), kinds.end(), "division"), kinds.end());
 }
 
+TEST_F(Formats, PolarityIsThereWhereCellsHaveOne) {
+  const Hdf5Reader file = results();
+  const std::string polarity = "snapshots/000002/cells/polarity/";
+  const std::vector<double> x = file.read<double>(polarity + "x").value(), y = file.read<double>(polarity + "y").value(),
+                            z = file.read<double>(polarity + "z").value();
+  const auto types = file.read<std::uint16_t>("snapshots/000002/cells/type").value();
+  ASSERT_EQ(x.size(), types.size());
+  for (std::size_t i = 0; i < types.size(); ++i) {
+    EXPECT_EQ(x[i], 0.0);
+    EXPECT_NEAR(y[i], types[i] == 1 ? 0.6 : 0.0, 1e-12);
+    EXPECT_NEAR(z[i], types[i] == 1 ? 0.8 : 0.0, 1e-12) << "liver and skin have none";
+  }
+}
+
 TEST_F(Formats, IdsAreTheSameInHdf5EventsAndCsv) {
   const Hdf5Reader file = results();
   std::set<std::string> mothers, daughters;
@@ -234,7 +249,7 @@ for n in sorted(f["snapshots"]):
     read = lambda stem: meshio.read(f"vtk/{stem}_{n}.vtu")
     paths = [v.decode() for v in s["variable_names"][:]]
     titled = {p.split("/")[1] if p.startswith("concentration/") else " of ".join(p.split("/")): p for p in paths}
-    assert len(titled) == 2 * len(s["fields"]) + 3 + 5 + 1  # those of the cycle, of renewed meshes, and outside_law
+    assert len(titled) == 2 * len(s["fields"]) + 3 + 5 + 8 + 1 + 3  # cycle, renewed meshes, own ones, outside_law, polarity
     def same(data, rows):
         for name, values in data.items():
             column = name.split(" [")[0]

@@ -142,7 +142,7 @@ TEST(Experiments, HoldFluidCellsAtTheirDistance) {
   EXPECT_GT(pulling, 10) << "cells that adhere pull at overlaps below that at rest";
 }
 
-/// Spheres whose friction along their contacts is a quarter of that of the material stand where the shells of a pressed cluster do: the factor comes back.
+/// Spheres that have a quarter of the friction of the material along their contacts stand where the shells of a pressed cluster do: the factor comes back.
 TEST(Experiments, GiveBackTheFrictionAlongTheContactOfSpheres) {
   const test::Folder folder;
   CellMaterial material = material_of_balls();
@@ -151,9 +151,9 @@ TEST(Experiments, GiveBackTheFrictionAlongTheContactOfSpheres) {
   for (Experiment& e : experiments_for(material)) {
     if (e.kind != Experiment::Kind::kPressed) continue;
     e.text.replace(e.text.find("as: shell"), 9, "as: sphere");
-    const std::string along = "cell_cell_tangential: 40 nN s/um^3";
-    ASSERT_NE(e.text.find(along), std::string::npos);
-    e.text.replace(e.text.find(along), along.size(), "cell_cell_tangential: 10 nN s/um^3");
+    const std::string law = "cbm: {";
+    ASSERT_NE(e.text.find(law), std::string::npos);
+    e.text.insert(e.text.find(law) + law.size(), "friction: {along: 0.25}, ");
     clusters.push_back(e);
     seeds.push_back(e.seed);
   }

@@ -181,7 +181,7 @@ TEST(LibraryStudies, HybridHotspotRunsShortened) {
   EXPECT_FALSE(find(*run, "falls while the needle rests")->passed) << "it still goes on, and the force rises";
 }
 
-/// S7.1 to S7.3, whole: spheres that may roll grow into a ball; with the default friction along their contacts they grow branches.
+/// S7.1 to S7.3, whole: spheres that may roll grow into a ball; with all of the friction along their contacts they grow branches.
 TEST(LibraryStudies, SpheroidOfSpheresIsCompact) {
   const NewStudy spheroid("spheroid");
   const auto run = spheroid.run({});
@@ -191,7 +191,7 @@ TEST(LibraryStudies, SpheroidOfSpheresIsCompact) {
     ASSERT_NE(v, nullptr) << text;
     EXPECT_TRUE(v->passed) << v->quantity << " is " << v->value << ", wanted " << v->limit;
   }
-  const auto stiff = spheroid.run({"cell_types.tumour.friction.cell_cell_tangential=same"});
+  const auto stiff = spheroid.run({"cell_types.tumour.cbm.friction.along=1"});
   ASSERT_TRUE(stiff.ok()) << stiff.error().message;
   EXPECT_FALSE(find(*stiff, "no branches")->passed) << "the criterion can fail";
 }

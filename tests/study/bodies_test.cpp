@@ -255,6 +255,23 @@ TEST(Bodies, WhoBecomesAShellBeforeTheFirstStepIsFoundByWhatIsKnown) {
   EXPECT_THAT(told("triggers: [{promote: contact_share < 0.9, demote: contact_share > 0.95}]"), Not(HasSubstr("before the first step")));
 }
 
+/// 100 nN s/um^3 at 25 nm/s are 2.5 kPa.
+TEST(Bodies, FrictionOfAPlateThatComesNearIsToldSinceItsForceHasNone) {
+  const auto told = [](const std::string& keys, const std::string& motion) {
+    const auto study = test::read(with(keys) + "geometry:\n  lid: {plane: {center: [0 um, 0 um, 45 um], size: 40 um, normal: [0, 0, -1]}" +
+                                  motion + "}\n");
+    EXPECT_TRUE(study.ok()) << study.error().text();
+    std::string out;
+    for (const std::string& note : study->notes) out += note + "\n";
+    return out;
+  };
+  const std::string moves = ", motion: {velocity: [0 um/h, 0 um/h, -90 um/h]}";
+  EXPECT_THAT(told("", moves),
+              AllOf(HasSubstr("'lid' moves by up to 25 nm/s"), HasSubstr("2.5 kPa, which `force_z_lid`"), HasSubstr("1.1e+09 N s/m^3")));
+  EXPECT_THAT(told("friction: {obstacle: 1.1e9 N s/m^3}", moves), Not(HasSubstr("force_z_lid")));
+  EXPECT_THAT(told("", ""), Not(HasSubstr("force_z_lid")));
+}
+
 TEST(Bodies, NoiseThatFoldsTheMeshIsRefused) {
   const auto noisy = [](const char* energy) {
     return test::changed("radius: 40 um}", kAsShell, with(std::string("fluctuations: {energy: ") + energy + "}"));

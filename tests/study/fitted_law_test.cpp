@@ -199,10 +199,16 @@ TEST(FittedLaw, SpheresComeTogetherWithTheFrictionThatWasFitted) {
     }
   }
   EXPECT_TRUE(told) << "methods.md says it";
+  const auto own = [](const std::string& keys) {
+    return test::changed("file: cell.jkr.yaml", "file: cell.jkr.yaml, friction: " + keys, kStudy);
+  };
+  EXPECT_THAT(file.errors(own("{approach: 0.5}")), AllOf(HasSubstr("E510"), HasSubstr("friction.approach")));
+  EXPECT_THAT(file.errors(own("{along: 0.5}")), AllOf(HasSubstr("E510"), HasSubstr("friction.along")));
   const auto unknown = Written(file_text()).read();
   ASSERT_TRUE(unknown.ok());
   EXPECT_EQ(unknown->model.types[0].sphere.approach_factor, 1.0);
   EXPECT_EQ(unknown->model.types[0].sphere.along_factor, 1.0);
+  EXPECT_EQ(Written(file_text()).read(own("{approach: 0.5, along: 0.25}"))->model.types[0].sphere.along_factor, 0.25);
   EXPECT_THAT(Written(file_text("jkr", "  approach: {factor: -1, misfit: 0}\n")).errors(), HasSubstr("E302"));
   EXPECT_THAT(Written(file_text("jkr", "  along: {factor: -1, misfit: 0}\n")).errors(), HasSubstr("E302"));
 }

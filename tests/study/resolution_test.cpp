@@ -65,6 +65,21 @@ TEST(Resolution, RangeLongerThanHalfTheMeanEdgeIsRefused) {
   EXPECT_NE(test::errors_of(test::changed("range: 0.45 um", "range: 0.6 um", pair)).find("[E503]"), std::string::npos);
 }
 
+/// Edges of 0.914 um bear 0.51 um; those of daughters that do not grow are shorter by 2^(-1/3) with each division.
+TEST(Resolution, CleavageThatLeavesTheMeshBehindIsTold) {
+  const std::string one = test::changed(", [12 um, 0 um, 0 um], [6 um, 10.4 um, 0 um]", "", kStudy);
+  const auto told = [&](const std::string& growth, const std::string& range) {
+    return test::warnings_of(
+        test::changed("range: 0.45 um", "range: " + range,
+                      test::changed("radius: 6 um", "radius: 6 um\n    cycle: {model: phases, " + growth + "phases: {I: 30 min}}", one)));
+  };
+  EXPECT_NE(told("growth: none, ", "0.45 um").find("up to 2 times: from the 1st division on"), std::string::npos)
+      << told("growth: none, ", "0.45 um");
+  EXPECT_NE(told("growth: none, ", "0.36 um").find("from the 2nd division on"), std::string::npos);
+  EXPECT_EQ(told("growth: none, ", "0.3 um").find("division on"), std::string::npos);
+  EXPECT_EQ(told("", "0.45 um").find("division on"), std::string::npos) << "they grow";
+}
+
 TEST(Resolution, MembraneLawsThatBothResistAreaAndImpossiblePoissonRatiosAreRefused) {
   const std::string pair = test::changed(", [6 um, 10.4 um, 0 um]", "", kStudy);
   EXPECT_NE(

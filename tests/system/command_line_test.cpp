@@ -181,6 +181,8 @@ TEST(Explain, KnowsKeysLawsAndCodes) {
   const Outcome near = run_morula({"explain", "jrk"}, folder.path());
   EXPECT_EQ(near.exit_code, 2);
   EXPECT_THAT(near.err, HasSubstr("did you mean `jkr`?"));
+  EXPECT_THAT(run_morula({"explain", "lumen"}, folder.path()).err, HasSubstr("did you mean `lumens`?"));
+  EXPECT_THAT(run_morula({"help"}, folder.path()).out, HasSubstr("calibrate"));
 }
 
 TEST(Info, OfALawAndOfAStudyIsJson) {
