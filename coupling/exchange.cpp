@@ -119,11 +119,7 @@ Result<std::vector<Event>> Simulation::first_swaps() {
   mechanics_->attach(tissue_);  // rules look at what cells touch
   // and at what presses them, which is no rise at the beginning (of a run, not where one goes on); what a capped start parts says nothing
   const bool begins = tissue_.clock.steps == 0 && tissue_.ledger.promotions + tissue_.ledger.demotions == 0;
-  if (begins && !tissue_.clock.capped) {
-    const std::vector<double> pressure = mechanics_->pressures(tissue_);
-    for (const BodyOfRow& body : bodies_of(tissue_.cells))
-      tissue_.cells.rows[body.row].pressure = pressure[body.place(tissue_.shells.size())];
-  }
+  if (begins && !tissue_.clock.capped) average_pressures(kNever);
   std::vector<Event> events = swap_bodies();
   OptionalColumn<double>& last_swap = tissue_.cells.optional.last_swap_time;
   for (std::size_t i = 0; i < tissue_.cells.size(); ++i)

@@ -17,9 +17,10 @@ inline constexpr double kBurst = 0.5;
 
 /// Find the faces of the lumens that are due, and measure all lumens: at the beginning of a step. Due is after Lumen::renewed, and as soon as the
 /// faces that were found leave open a twentieth of the directions in which a wall was seen: cells that part have faces between them that were in
-/// contact. Where so much of the walls is no face that it finds, as behind a rim, they are found in every step. A lumen that keeps its solute gets its amount when it is first seen. A ray goes from `center` in every direction of a SightMap; faces of shells that show their
-/// outside and of which at least half is seen bound the cavity; spheres stand in the way, and `obstacles` (those of the study and the walls of the
-/// domain, as Tissue::obstacle_offset has them). Collective.
+/// contact. Where so much of the walls is no face that it finds, as behind a rim, they are found in every step. A lumen that keeps its solute gets
+/// its amount when it is first seen. A ray goes from `center` in every direction of a SightMap; faces of shells that show their outside and of
+/// which at least half is seen bound the cavity; spheres stand in the way, and `obstacles` (those of the study and the walls of the domain, as
+/// Tissue::obstacle_offset has them). Collective.
 void look_into_lumens(const Model& model, std::span<const RigidSurface> obstacles, Tissue& tissue, const Comm& comm);
 
 /// Volume, area, cover and pressure of the lumens at the present positions and time. Collective.

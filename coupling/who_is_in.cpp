@@ -32,7 +32,7 @@ Vec3d tissue_centroid(const Space& space, std::span<const Vec3d> center, const C
 }
 
 /// How many times as long as at time 0 a domain with a course is: regions are carried along with it, as cells are, their size, too.
-double stretch_of_box(const Model& model, double time) { return model.box_volume.empty() ? 1.0 : std::cbrt(model.box_volume.at(time)); }
+double stretch_of_box(const Model& model, double time) { return std::cbrt(model.box_volume.at(time)); }
 
 /// Of the images of a place along the periodic axes that which is deepest in the region, or nearest to it.
 double distance_outside(const Region& region, const Vec3d& from, const Space& space, double stretch) {
@@ -49,13 +49,11 @@ double distance_outside(const Region& region, const Vec3d& from, const Space& sp
 std::vector<Vec3d> centers_of_regions(const Model& model, const Tissue& tissue, std::span<const Vec3d> center, const Comm& comm) {
   const Vec3d of_tissue = needs_center(model.swaps) ? tissue_centroid(model.space, center, comm) : Vec3d{};
   const double stretch = stretch_of_box(model, tissue.clock.time);
-  std::vector<Vec3d> out;
   const Vec3d middle = model.space.box.center();
+  std::vector<Vec3d> out;
   for (const Region& region : model.swaps.regions) {
-    if (region.follow_tissue)
-      out.push_back(region.center * stretch + of_tissue);
-    else
-      out.push_back(stretch == 1.0 ? region.center : middle + (region.center - middle) * stretch);
+    // the same bits as in the study where nothing is stretched
+    out.push_back(region.follow_tissue ? region.center * stretch + of_tissue : region.center + (region.center - middle) * (stretch - 1.0));
     if (region.obstacle >= 0) out.back() += model.obstacles[static_cast<std::size_t>(region.obstacle)].way(0.0, tissue.clock.time);
   }
   return out;

@@ -189,12 +189,12 @@ void note_spheres_that_do_not_roll(BuildContext& c) {
   }
 }
 
-/// Fastest that an obstacle moves [µm/s], to a hundredth of the run.
+/// Fastest that an obstacle moves before the end of the study [µm/s].
 double fastest_of(const ObstacleSpec& obstacle, double end) {
-  constexpr int kParts = 100;
   double most = norm(obstacle.velocity);
-  for (int k = 0; k < kParts && !obstacle.distance.empty(); ++k)
-    most = std::max(most, norm(obstacle.way(end * k / kParts, end * (k + 1) / kParts)) * kParts / end);
+  const std::vector<double>& corner = obstacle.distance.time;
+  for (std::size_t i = 1; i < corner.size() && corner[i - 1] < end; ++i)
+    most = std::max(most, norm(obstacle.way(corner[i - 1], corner[i])) / (corner[i] - corner[i - 1]));
   return most;
 }
 

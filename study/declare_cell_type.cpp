@@ -60,8 +60,8 @@ void declare_life(Section& s, draft::CellType& t) {
 void declare_friction(Section& s, draft::CellType& t) {
   s.quantity({.name = "cell_cell",
               .doc = "Friction with cells per contact area; for two types the mean of theirs. Surfaces of shells zip together and roll "
-                     "past each other, "
-                     "two spheres push and rub their whole contact: how much of it a sphere has, against shells, too, is `cbm: {friction: "
+                     "past each other, two spheres push and rub their whole contact: how much of it a sphere has, against shells, too, is "
+                     "`cbm: {friction: "
                      "...}`, or told "
                      "by a law that was fitted to shells (`cbm: {law: fitted}`).",
               .quantity = Q::kFrictionPerArea,
@@ -141,26 +141,20 @@ void declare_sphere_law(Section& c, draft::CellType& t) {
 
 /// How much of the friction with cells a sphere has.
 void declare_sphere_friction(Section& s, draft::CellType& t) {
-  s.quantity(
-      {.name = "approach",
-       .doc = "Factor on `cell_cell`, across the contact. Shells of the same friction come together ten to twenty times as fast as spheres "
-              "with 1: their surfaces zip.",
-       .fallback = "1",
-       .low = 0.0,
-       .high = 100.0,
-       .example = "0.08",
-       .source = "chosen; fitted to pairs of shells: 0.046 to 0.093 (decision 0064)"},
-      t.sphere_friction, &cbm::SphereParameters::approach_factor);
-  s.quantity(
-      {.name = "along",
-       .doc = "Factor on `cell_cell_tangential`, along the contact. With 1 spheres stay where they first touched, and few cells that grow "
-              "become a bush; 0.03 is what tissues of shells yield like.",
-       .fallback = "1",
-       .low = 0.0,
-       .high = 100.0,
-       .example = "0.03",
-       .source = "chosen; fitted to balls of shells that plates press: 0.016 to 0.061 (decisions 0077, 0086)"},
-      t.sphere_friction, &cbm::SphereParameters::along_factor);
+  const auto factor = [&](const char* name, const char* doc, const char* example, const char* source,
+                          double cbm::SphereParameters::*value) {
+    s.quantity({.name = name, .doc = doc, .fallback = "1", .low = 0.0, .high = 100.0, .example = example, .source = source},
+               t.sphere_friction, value);
+  };
+  factor("approach",
+         "Factor on `cell_cell`, across the contact. Shells of the same friction come together ten to twenty times as fast as spheres "
+         "with 1: their surfaces zip.",
+         "0.08", "chosen; fitted to pairs of shells: 0.046 to 0.093 (decision 0064)", &cbm::SphereParameters::approach_factor);
+  factor("along",
+         "Factor on `cell_cell_tangential`, along the contact. With 1 spheres stay where they first touched, and few cells that grow "
+         "become a bush; 0.03 is what tissues of shells yield like.",
+         "0.03", "chosen; fitted to balls of shells that plates press: 0.016 to 0.061 (decisions 0077, 0086)",
+         &cbm::SphereParameters::along_factor);
 }
 
 /// What a sphere is to a shell, beside its modulus and W.

@@ -63,8 +63,7 @@ void declare_pair(Section& s, draft::ContactPair& pair) {
              pair.normal_friction);
   s.quantity({.name = "tangential_friction",
               .doc = "Friction against sliding, per contact area; without it as `friction` of the cell types says. Of both, spheres have "
-                     "the part that "
-                     "`cbm: {friction: ...}` says.",
+                     "the part that `cbm: {friction: ...}` says.",
               .quantity = Q::kFrictionPerArea,
               .low = 0.0,
               .high = 1e6,

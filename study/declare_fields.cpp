@@ -51,8 +51,7 @@ void declare_region(Section& s, draft::Region& r) {
          r.body);
   s.quantity({.name = "margin",
               .doc = "Up to this far beyond its border a cell keeps the body that the region gives; it leaves beyond. In a box that "
-                     "follows a course regions "
-                     "go along with it, their size, too; the margin stays.",
+                     "follows a course regions go along with it, their size, too; the margin stays.",
               .quantity = Q::kLength,
               .fallback = "3 um",
               .low = 0.0,

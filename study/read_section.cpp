@@ -94,17 +94,13 @@ bool ReadSection::read_number(const KeySpec& key, const Node& node, double& valu
 
 void ReadSection::quantity(const KeySpec& key, Given<double>& value) {
   Node storage;
-  const Node* node = scalar(key, storage, value.given);
-  value.fallback = key.fallback;
+  const Node* node = scalar(key, storage, value);
   if (node && read_number(key, *node, value.value)) value.text = node->text;
-  value.place = node ? node->place : place_;
 }
 
 void ReadSection::whole(const KeySpec& key, Given<std::uint64_t>& value) {
   Node storage;
-  const Node* node = scalar(key, storage, value.given);
-  value.fallback = key.fallback;
-  value.place = node ? node->place : place_;
+  const Node* node = scalar(key, storage, value);
   if (!node) return;
   const std::string& text = node->text;
   if (const Special* special = find_special(key, text)) {
@@ -140,9 +136,7 @@ void ReadSection::whole(const KeySpec& key, Given<std::uint64_t>& value) {
 
 void ReadSection::word(const KeySpec& key, Given<std::string>& value) {
   Node storage;
-  const Node* node = scalar(key, storage, value.given);
-  value.fallback = key.fallback;
-  value.place = node ? node->place : place_;
+  const Node* node = scalar(key, storage, value);
   if (!node) return;
   std::string text = node->text;
   for (const auto& [other, meant] : key.synonyms)
@@ -156,9 +150,7 @@ void ReadSection::word(const KeySpec& key, Given<std::string>& value) {
 
 void ReadSection::text(const KeySpec& key, Given<std::string>& value) {
   Node storage;
-  const Node* node = scalar(key, storage, value.given);
-  value.fallback = key.fallback;
-  value.place = node ? node->place : place_;
+  const Node* node = scalar(key, storage, value);
   if (!node) return;
   if (value.given && node->text.empty()) {
     diagnostics_.error(104, node->place, shown(key) + " is empty", example_of(key));
@@ -169,9 +161,7 @@ void ReadSection::text(const KeySpec& key, Given<std::string>& value) {
 
 void ReadSection::flag(const KeySpec& key, Given<bool>& value) {
   Node storage;
-  const Node* node = scalar(key, storage, value.given);
-  value.fallback = key.fallback;
-  value.place = node ? node->place : place_;
+  const Node* node = scalar(key, storage, value);
   if (!node) return;
   if (node->text != "true" && node->text != "false") {
     diagnostics_.error(108, node->place, shown(key) + " cannot be '" + node->text + "'", "allowed: true, false");

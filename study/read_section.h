@@ -47,6 +47,14 @@ class ReadSection final : public Section {
   [[nodiscard]] std::string path_of(const std::string& name) const { return path_.empty() ? name : path_ + "." + name; }
   /// The scalar of a key as text with its place: from the file, or the default. Null when there is neither, or on an error.
   const Node* scalar(const KeySpec& key, Node& storage, bool& given);
+  /// The same, and what is known of the value before it is read: whether it is given, its place, its default.
+  template <class T>
+  const Node* scalar(const KeySpec& key, Node& storage, Given<T>& value) {
+    const Node* node = scalar(key, storage, value.given);
+    value.place = node ? node->place : place_;
+    value.fallback = key.fallback;
+    return node;
+  }
   /// The words of a node that is a list.
   void word_items(const KeySpec& key, const Node& node, Given<std::vector<std::string>>& value);
   bool vector_items(const KeySpec& key, const Node& node, Vec3d& value, std::string& text);

@@ -1,3 +1,4 @@
+#include "core/numbers/joined.h"
 #include "core/numbers/number_text.h"
 #include "coupling/lumens.h"
 #include "scenarios/run/run_loop.h"
@@ -80,17 +81,16 @@ Status RunLoop::check_limits(const Measures& m) {
 /// What a cavity held is gone once it is open, and all checks may pass.
 void RunLoop::tell_open_cavities(const Measures& m) {
   const Tissue& tissue = simulation_->tissue();
-  std::string names, columns;
+  std::vector<std::string> open;
   for (std::size_t k = 0; k < tissue.lumens.size(); ++k) {
     const Lumen& lumen = study_.model.lumens[k];
-    if (tissue.lumens[k].looked_at < lumen.from || tissue.lumens[k].covered >= kBurst) continue;
-    names += (names.empty() ? "'" : ", '") + lumen.name + "'";
-    columns += (columns.empty() ? "`open_" : ", `open_") + lumen.name + "`";
+    if (tissue.lumens[k].looked_at >= lumen.from && tissue.lumens[k].covered < kBurst) open.push_back(lumen.name);
   }
-  if (!names.empty())
-    warn_near_limit(kCavityOpen, "open at " + time_text(m.time) + ", and no cavity any more: " + names +
-                                     ". More than half of the directions from the centre meet no wall, and the fluid presses nothing (" +
-                                     columns + " in series.csv)");
+  if (open.empty()) return;
+  warn_near_limit(kCavityOpen, "open at " + time_text(m.time) +
+                                   ", and no cavity any more: " + joined(open, [](const std::string& name) { return "'" + name + "'"; }) +
+                                   ". More than half of the directions from the centre meet no wall, and the fluid presses nothing (" +
+                                   joined(open, [](const std::string& name) { return "`open_" + name + "`"; }) + " in series.csv)");
 }
 
 void RunLoop::tell_creeping(const StepOutcome& outcome) {

@@ -434,13 +434,11 @@ Error RunLoop::fail(Error error, bool state_is_sound) {
   // checkpoint: a run that goes on from there tells it anew if it meets it again.
   if (state_is_sound && error.kind == ErrorKind::kPhysics && agree(write_events(), comm_).ok()) (void)checkpoint().ok();
   warn(error.message);
-  if (error.kind == ErrorKind::kPhysics) {  // of all ranks
-    if (agree(write_events(), comm_).ok() && write_tables().ok()) {
-      if (!error.help.empty()) error.help += "; ";
-      error.help += "`morula plot " + shell_word(folder_.path().string()) + "` draws what there is";
-    }
-  } else {
-    (void)write_events().ok();
+  Status events = write_events();
+  const bool of_all_ranks = error.kind == ErrorKind::kPhysics;
+  if (of_all_ranks && agree(std::move(events), comm_).ok() && write_tables().ok()) {
+    if (!error.help.empty()) error.help += "; ";
+    error.help += "`morula plot " + shell_word(folder_.path().string()) + "` draws what there is";
   }
   record_.state = RunState::kFailed;
   record_.exit_code = exit_code(error.kind);

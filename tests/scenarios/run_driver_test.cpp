@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "results/file_io.h"
+#include "results/hdf5_reader.h"
 #include "results/series_reader.h"
 #include "results/snapshot_file.h"
 #include "results/state_hash.h"
@@ -394,6 +395,22 @@ TEST_F(Runs, ACrossedLimitFailsTheRunAndNamesTheCell) {
   EXPECT_TRUE(fs::exists(*this / "a/FAILED"));
   EXPECT_EQ(read_run_record(*this / "a/run.json")->exit_code, 4);
   EXPECT_FALSE(fs::is_empty(*this / "a/checkpoints"));
+  EXPECT_NE(failed.error().help.find("`morula plot "), std::string::npos) << failed.error().help;
+  const auto results = Hdf5Reader::open(*this / "a/results.h5");
+  ASSERT_TRUE(results.ok()) << results.error().message;
+  EXPECT_EQ(results->read<double>("series/time").value(), std::vector<double>{0.0});
+  EXPECT_GE(results->rows("events/time").value(), 1u) << "why it failed";
+}
+
+/// Two shells close no cavity between them.
+TEST_F(Runs, ACavityThatIsOpenIsTold) {
+  (void)run_whole(kShells + "lumens: {gap: {center: [0 um, 14 um, 0 um], pressure: 10 Pa}}\n", "open");
+  const std::string log = slurp(*this / "open/log.txt");
+  const std::size_t told = log.find("no cavity any more: 'gap'");
+  ASSERT_NE(told, std::string::npos) << log;
+  EXPECT_NE(log.find("`open_gap`"), std::string::npos);
+  EXPECT_EQ(log.find("no cavity any more", told + 1), std::string::npos) << "once";
+  EXPECT_NE(slurp(*this / "open/events.jsonl").find("no cavity any more"), std::string::npos);
 }
 
 TEST_F(Runs, TheSeriesAskedForComesFirst) {
