@@ -105,7 +105,7 @@ struct SphereParameters {
   PackingCurve packing{};                            ///< pressure by packing; empty: none
   CrowdedArea crowded_area{};                        ///< contact areas that are told; empty: those of pairs
   double adhesion_factor = 1.0;                      ///< W of two spheres over that of the study: of a law fitted to shells
-  double approach_factor = 1.0;                      ///< γ_n with cells over that of the study: of a law fitted to shells
+  double approach_factor = 1.0;                      ///< γ_n with cells over that of the study: `friction.approach`, or of a fitted law
   double along_factor = 1.0;                         ///< γ_t, likewise
   WithShells with_shells{};
   OverlapRange fitted{};  ///< of contacts with spheres that have a fitted law, too

@@ -89,7 +89,7 @@ std::vector<Vec3d> Simulation::forces_on_cells(double time) {
 
 void Simulation::add_crawling(std::span<const Vec3d> walk, std::span<Vec3d> external) {
   const auto walks = [](const CellType& type) { return type.migration.acts(); };
-  if (walk.empty()) return;
+  if (std::ranges::none_of(model_.types, walks)) return;  // not by `walk`: a rank may have no cell
   const Touches touch = find_touches(model_, tissue_, *mechanics_, [&](const CellType& type) {
     return walks(type) ? std::optional(type.migration.substrate) : std::nullopt;
   });
@@ -122,14 +122,14 @@ void Simulation::add_protrusions(std::span<Vec3d> external) {
     double size = law.force;
     const Vec3d polarity = tissue_.cells.optional.polarity[i];
     Vec3d direction = polarity;
-    std::span<const char> front;
+    Footing footing;
     if (law.substrate >= 0) {
       const Touch& on = touch.at(law.substrate)[s];
       direction = along_surface(direction, on);
       if (law.contact_area > 0.0) size *= std::min(1.0, on.area / law.contact_area);
-      front = std::span(nodes.at(law.substrate)).subspan(first, count);
+      footing = {std::span(nodes.at(law.substrate)).subspan(first, count), on.normal};
     }
-    (void)add_protrusion(law, tissue_.shells.topology(s), std::as_const(tissue_.shells).nodes(s), polarity, front, direction, size,
+    (void)add_protrusion(law, tissue_.shells.topology(s), std::as_const(tissue_.shells).nodes(s), polarity, footing, direction, size,
                          external.subspan(first, count));
   }
 }

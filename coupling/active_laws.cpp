@@ -52,14 +52,15 @@ LawInfo fluctuation_law() {
 }
 
 LawInfo protrusion_law() {
-  return {
-      .name = "protrusion",
-      .title = "Protrusion at the leading edge",
-      .equation =
-          "f_i = F w_i p/Σw at the front, w_i = a_i (cos θ_i − cos α)₊; F = F_p min(1, A_contact/A_ref); reaction outside, or on the rear",
-      .source = kReview,
-      .parameters = {given_by_study("force", "force", "nN", "F_p."), given_by_study("angle", "angle", "rad", "α."),
-                     given_by_study("contact_area", "area", "µm²", "A_ref; 0: F = F_p.")}};
+  return {.name = "protrusion",
+          .title = "Protrusion at the leading edge",
+          .equation =
+              "f_i = F w_i p/Σw at the front, w_i = a_i (cos θ_i − cos α)₊, θ_i from the polarity, on a substrate along it; F = F_p min(1, "
+              "A_contact/A_ref); "
+              "reaction outside, or on the rear",
+          .source = kReview,
+          .parameters = {given_by_study("force", "force", "nN", "F_p."), given_by_study("angle", "angle", "rad", "α."),
+                         given_by_study("contact_area", "area", "µm²", "A_ref; 0: F = F_p.")}};
 }
 
 LawInfo friction_law() {

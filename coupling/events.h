@@ -55,6 +55,8 @@ struct ExchangeEffect {
   /// volume that its pressure leaves. Of promotions mostly > 0, of demotions < 0 [µm³].
   double room = 0.0;
   double later = 0.0;  ///< of its free volume, what a new shell among shells takes little by little (decision 0059) [µm³]
+  /// How far the middle of the cell went while its new shell found its shape, over its radius: at once, its neighbours held.
+  double own_way = 0.0;
   double largest_force = 0.0, mean_force = 0.0;  ///< change of the force on a neighbour before anyone has moved [nN]
   double largest_way = 0.0, mean_way = 0.0;      ///< of a neighbour from just before the exchange on, over its radius; of kExchangeSettled
 };

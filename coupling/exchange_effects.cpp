@@ -20,13 +20,6 @@ constexpr double kBeside = 1.2;  // of the sum of the radii: nearest neighbours 
 /// How far around an exchange one looks, in units of the size of the cell: what is beside it, of cells that are not much larger than itself.
 constexpr double kAround = 0.25;
 
-/// A cell that exchanges its body.
-struct ExchangingCell {
-  CellId id;
-  Vec3d center;
-  double radius;
-};
-
 /// A neighbour as all ranks hear of it once the bodies are exchanged.
 struct Told {
   WatchedNeighbour watched;
@@ -87,14 +80,32 @@ void for_each_exchange(const Items& items, Key&& key, F&& function) {
   }
 }
 
+/// Of the cells of these events.
+void tell_own_ways(const ExchangeWatch& watch, const Tissue& tissue, std::span<Event> events) {
+  std::map<CellId, ExchangeEffect*> told;
+  for (Event& event : events)
+    if (event.exchange) told[event.cell] = &*event.exchange;
+  std::vector<CellId> ids;
+  for (const auto& [id, effect] : told) ids.push_back(id);
+  for (const BodyOfRow& body : bodies_of(tissue.cells, rows_of(tissue.cells, ids))) {
+    const CellId id = tissue.cells.rows[body.row].id;
+    told.at(id)->own_way = watch.way_of(id, record_of(tissue, body).center());
+  }
+}
+
 }  // namespace
 
-ExchangeWatch::Caps ExchangeWatch::of(CellId id) const {
-  const auto found = std::ranges::lower_bound(caps, id, {}, &Caps::id);
-  return found != caps.end() && found->id == id ? *found : Caps{};
+ExchangeWatch::Exchanging ExchangeWatch::of(CellId id) const {
+  const auto found = std::ranges::lower_bound(exchanging, id, {}, &Exchanging::id);
+  return found != exchanging.end() && found->id == id ? *found : Exchanging{};
 }
 
 double ExchangeWatch::caps_of(CellId id) const { return of(id).caps; }
+
+double ExchangeWatch::way_of(CellId id, const Vec3d& to) const {
+  const Exchanging from = of(id);
+  return norm(to - from.place) / from.radius;
+}
 
 double ExchangeWatch::room_to_come_of(CellId id, double pressed) const {
   return std::max(0.0, of(id).among_shells - std::max(0.0, pressed));
@@ -109,22 +120,27 @@ ExchangeWatch watch_exchanges(const Model& model, const Tissue& tissue, std::spa
   out.around = neighbourhoods_of(tissue, model, mechanics.contacts().settings(), exchanging, kAround, comm);
   GatheredParts(tissue, out.around, mechanics, shapes, comm)
       .visit([&](std::span<const CellId> cells, Tissue& part, Mechanics& alone, const Comm& together) {
-        std::vector<ExchangingCell> exchanged;
+        const std::vector<double> caps = alone.as_balls(part).caps;
+        const std::vector<CellBall> shells = shells_to_be(part, cells, together);
+        std::vector<ExchangeWatch::Exchanging> of_part;
         for (const BodyOfRow& body : bodies_of(part.cells)) {
           const CellRow& row = part.cells.rows[body.row];
           if (!std::ranges::binary_search(cells, row.id)) continue;
-          exchanged.push_back({row.id, record_of(part, body).center(), ball_radius(row.target_volume)});
+          const double among_shells = body.is_shell ? 0.0 : caps_with(shells, ball_of(part, body), model.space);
+          of_part.push_back(
+              {row.id, record_of(part, body).center(), ball_radius(row.target_volume), caps[body.place(part.shells.size())], among_shells});
         }
-        exchanged = items_of_all_ranks(exchanged, together);
-        std::ranges::sort(exchanged, {}, &ExchangingCell::id);
+        out.exchanging.insert(out.exchanging.end(), of_part.begin(), of_part.end());
+        of_part = items_of_all_ranks(of_part, together);
+        std::ranges::sort(of_part, {}, &ExchangeWatch::Exchanging::id);
         std::vector<ExchangeWatch::Beside> beside;
         for (const BodyOfRow& body : bodies_of(part.cells)) {
           const CellRow& row = part.cells.rows[body.row];
           if (std::ranges::binary_search(cells, row.id)) continue;
           const double radius = ball_radius(row.target_volume);
           const Vec3d center = record_of(part, body).center();
-          for (const ExchangingCell& other : exchanged)
-            if (norm(model.space.nearest_image(other.center - center)) < kBeside * (radius + other.radius))
+          for (const ExchangeWatch::Exchanging& other : of_part)
+            if (norm(model.space.nearest_image(other.place - center)) < kBeside * (radius + other.radius))
               beside.push_back({other.id, row.id, center, radius, {}});
         }
         const std::map<CellId, Vec3d> force = forces_on(beside, part, alone);
@@ -132,22 +148,15 @@ ExchangeWatch watch_exchanges(const Model& model, const Tissue& tissue, std::spa
           one.force = force.at(one.neighbour);
           out.beside.push_back(one);
         }
-        const std::vector<double> caps = alone.as_balls(part).caps;
-        const std::vector<CellBall> shells = shells_to_be(part, cells, together);
-        for (const BodyOfRow& body : bodies_of(part.cells)) {
-          const CellId id = part.cells.rows[body.row].id;
-          if (!std::ranges::binary_search(cells, id)) continue;
-          const double among_shells = body.is_shell ? 0.0 : caps_with(shells, ball_of(part, body), model.space);
-          out.caps.push_back({id, caps[body.place(part.shells.size())], among_shells});
-        }
       });
-  out.caps = items_of_all_ranks(out.caps, comm);
-  std::ranges::sort(out.caps, {}, &ExchangeWatch::Caps::id);
+  out.exchanging = items_of_all_ranks(out.exchanging, comm);
+  std::ranges::sort(out.exchanging, {}, &ExchangeWatch::Exchanging::id);
   return out;
 }
 
 void tell_exchanges(const ExchangeWatch& watch, Tissue& tissue, const Mechanics& mechanics, ShapeLibrary& shapes, const Comm& comm,
                     std::vector<Event>& events) {
+  tell_own_ways(watch, tissue, events);
   std::vector<Told> all;
   GatheredParts(tissue, watch.around, mechanics, shapes, comm)
       .visit([&](std::span<const CellId> cells, Tissue& part, Mechanics& alone, const Comm&) {

@@ -36,10 +36,12 @@ double end_of_step(double dt, double time, double land_on) {
 
 bool is_fluid(const CellType& type) { return !dcm::has_elastic_surface(type.shell); }
 
-/// Why no step size works: cell, law and time.
-Error refused(const Model& model, const Tissue& tissue, const StepFault& fault, double dt) {
+/// Why no step size works: cell, law and time. Collective.
+Error refused(const Model& model, const Tissue& tissue, const StepFault& here, double dt, const Comm& comm) {
+  const StepFault fault = worst_of_all_ranks(here, comm);
   const Clock& clock = tissue.clock;
-  const bool both_bodies = model.swaps.any() || (tissue.spheres.size() > 0 && tissue.shells.size() > 0);
+  const bool spheres = comm.any(tissue.spheres.size() > 0), shells = comm.any(tissue.shells.size() > 0);
+  const bool both_bodies = model.swaps.any() || (spheres && shells);
   char when[64];
   const bool early = clock.time < 3600.0;  // seconds say more than 2.981e-05 h
   std::snprintf(when, sizeof when, early ? " at %.4g s" : " at %.6g h", early ? clock.time : clock.time / 3600.0);
@@ -143,7 +145,7 @@ Result<StepOutcome> Simulation::whole_step(const StepPlan& plan, const std::func
     before_step_.restore(tissue_);
     carry_to(clock.time);
     mechanics_->parameters_changed();
-    if (!moved.error().smaller_step_may_help || dt * 0.25 < kSmallestStep) return refused(model_, tissue_, moved.error(), dt);
+    if (!moved.error().smaller_step_may_help || dt * 0.25 < kSmallestStep) return refused(model_, tissue_, moved.error(), dt, comm_);
     dt *= outcome.retries < 2 ? 0.5 : 0.25;
   }
   tissue_.ledger.drift += outcome.mechanics.motion.drift;

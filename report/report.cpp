@@ -201,17 +201,18 @@ void add_exchanges(std::string& out, const ReportContent& content) {
   if (content.exchanges.empty()) return;
   add(out,
       "<section>\n<h2>What exchanges of bodies did</h2>\n<p>A ball overlaps its neighbours' behind the planes of its contacts, a shell "
-      "does not: "
-      "room is that of these caps. Forces: change of the force on a neighbour before anyone moved. Ways: of the neighbours within ten "
-      "minutes, "
-      "whatever else moved them.</p>\n");
+      "does not: room is that of these caps. Jump: how far the middle of a cell went while its new shell found its shape among neighbours "
+      "that were held, at once. Forces: change of the force on a neighbour before anyone else moved. Ways: of the neighbours within ten "
+      "minutes, whatever else moved them.</p>\n");
   std::vector<Row> rows;
   const auto both = [](double largest, double mean) { return short_number(largest) + ", " + short_number(mean); };
   for (const ReportExchanges& e : content.exchanges)
-    rows.push_back({{e.kind, std::to_string(e.count), short_number(e.room) + " µm³", both(e.largest_force, e.mean_force) + " nN",
+    rows.push_back({{e.kind, std::to_string(e.count), short_number(e.room) + " µm³", short_number(e.largest_own_way) + " R",
+                     both(e.largest_force, e.mean_force) + " nN",
                      e.settled > 0 ? both(e.largest_way, e.mean_way) + " R (" + std::to_string(e.settled) + ")" : "–"}});
   add_table(out,
-            {"exchange", "count", "room in all", "force on a neighbour: largest, mean", "way of a neighbour: largest, mean (of how many)"},
+            {"exchange", "count", "room in all", "largest jump", "force on a neighbour: largest, mean",
+             "way of a neighbour: largest, mean (of how many)"},
             rows);
   add(out, "</section>\n");
 }

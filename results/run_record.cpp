@@ -248,7 +248,7 @@ void add_exchange(const Event& event, Json& json) {
   if (event.kind == EventKind::kExchangeSettled) {
     json["largest_way_R"] = number(effect.largest_way), json["mean_way_R"] = number(effect.mean_way);
   } else {
-    json["cell_volume_um3"] = number(effect.volume);
+    json["cell_volume_um3"] = number(effect.volume), json["own_way_R"] = number(effect.own_way);
     json["largest_force_nN"] = number(effect.largest_force), json["mean_force_nN"] = number(effect.mean_force);
   }
 }
@@ -259,7 +259,7 @@ std::optional<ExchangeEffect> exchange_in(const Json& json) {
   out.neighbours = number_at(json, "neighbours", std::uint32_t{0});
   out.became_shell = text_at(json, "became") == "shell";
   out.room = number_at(json, "room_um3", 0.0), out.later = number_at(json, "room_later_um3", 0.0);
-  out.volume = number_at(json, "cell_volume_um3", 0.0);
+  out.volume = number_at(json, "cell_volume_um3", 0.0), out.own_way = number_at(json, "own_way_R", 0.0);
   out.largest_force = number_at(json, "largest_force_nN", 0.0), out.mean_force = number_at(json, "mean_force_nN", 0.0);
   out.largest_way = number_at(json, "largest_way_R", 0.0), out.mean_way = number_at(json, "mean_way_R", 0.0);
   return out;

@@ -171,7 +171,7 @@ bool has_keys_of_shape(BuildContext& c, draft::Region& r, const RegionShape& sha
       leave_away(r.own, name);
     }
   const auto missing = missing_keys(shape.keys, r.own);
-  for (const std::string& key : missing) c.diagnostics.error(103, place, who + "needs `" + key + "`", "");
+  for (const std::string& key : missing) c.diagnostics.error(103, place, who + "needs `" + key + "`", example_of(shape.keys, {key}));
   return missing.empty();
 }
 

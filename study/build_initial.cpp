@@ -284,7 +284,7 @@ class InitialBuilder {
     cells.size = d.size.value;
     const bool random = d.fill.value == "random", layer = d.fill.value == "layer";
     cells.pattern = layer ? FillPattern::kLayer : random ? FillPattern::kRandom : FillPattern::kPacked;
-    const bool box = d.fill.value == "box" || (random && d.size.given), sphere = !box;
+    const bool box = d.fill.value == "box" || ((random || layer) && d.size.given), sphere = !box;
     cells.fill = box ? FillShape::kBox : FillShape::kSphere;
     const auto missing = [&](bool given, const char* key) {
       if (!given)
@@ -309,7 +309,8 @@ class InitialBuilder {
   }
 
   void build_layer(const draft::Initial& d, const Place& place, InitialCells& cells) {
-    stray(d.size.given, d.size.place, "size", "fill: layer");
+    if (d.radius.given && d.size.given)
+      c_.diagnostics.error(111, d.size.place, "a layer keeps to a disc (`radius`) or to a rectangle (`size`)", "leave one of them away");
     if (!d.on.given)
       c_.diagnostics.error(103, place, "key 'on' is missing in an entry of `initial`",
                            "a layer lies on a plane or wall: for example `on: z_low`");

@@ -14,7 +14,7 @@ void declare_protrusion(Section& p, draft::Activity& a) {
   p.quantity({.name = "force", .doc = "Size of the force.", .quantity = Q::kForce, .required = true, .low = 0.0, .example = "1 nN"},
              a.protrusion, &Protrusion::force);
   p.quantity({.name = "angle",
-              .doc = "Half angle of the front about the polarity.",
+              .doc = "Half angle of the front about the polarity; on a `substrate`, along it.",
               .quantity = Q::kAngle,
               .fallback = "45 deg",
               .low = 0.0,

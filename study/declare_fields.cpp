@@ -133,15 +133,18 @@ void declare_field(Section& s, draft::Field& f) {
               .low = 0.0,
               .example = "0.2 mM"},
              f.spec, &fields::FieldSpec::initial);
-  s.quantity({.name = "voxel",
-              .doc = "Edge of a voxel, at most; the domain is divided evenly.",
-              .quantity = Q::kLength,
-              .fallback = "10 um",
-              .low = 0.0,
-              .low_open = true,
-              .example = "10 um",
-              .source = "chosen: about one cell"},
-             f.voxel);
+  s.quantity(
+      {.name = "voxel",
+       .doc = "Edge of a voxel, at most; the domain is divided evenly. What a cell sees of its own uptake or secretion leans on where it "
+              "lies in the grid: with 10 um a cell of 6 um sees 0.5 to 1.6 times what is right, with 5 um 0.9 to 1.0 times. What others "
+              "do is right within a few per cent three voxels away.",
+       .quantity = Q::kLength,
+       .fallback = "10 um",
+       .low = 0.0,
+       .low_open = true,
+       .example = "10 um",
+       .source = "chosen: about one cell"},
+      f.voxel);
   s.quantity({.name = "tolerance",
               .doc = "Relative error tolerance of the time integration.",
               .fallback = "1e-4",
@@ -150,17 +153,17 @@ void declare_field(Section& s, draft::Field& f) {
               .example = "1e-4",
               .source = "chosen"},
              f.spec, &fields::FieldSpec::relative_tolerance);
-  s.quantity({.name = "interval_tolerance",
-              .doc = "Between two integrations the field waits while cells move and grow, up to five minutes or the tenth of a voxel that "
-                     "a cell goes: as long as no "
-                     "concentration changes by more than this part of the largest one. Cells act on what they saw last. 0: integrated "
-                     "after every step.",
-              .fallback = "5e-3",
-              .low = 0.0,
-              .high = 0.1,
-              .example = "5e-3",
-              .source = "chosen: decision 0061"},
-             f.spec, &fields::FieldSpec::interval_tolerance);
+  s.quantity(
+      {.name = "interval_tolerance",
+       .doc = "Between two integrations the field waits while cells move and grow, up to five minutes or the tenth of a voxel that "
+              "a cell goes: as long as no concentration changes by more than this part of the largest one. Cells act on what they saw "
+              "last, and those that are there in the end count for the whole time, daughters, too. 0: integrated after every step.",
+       .fallback = "5e-3",
+       .low = 0.0,
+       .high = 0.1,
+       .example = "5e-3",
+       .source = "chosen: decision 0061"},
+      f.spec, &fields::FieldSpec::interval_tolerance);
   bool present = false;
   s.group({.name = "boundary",
            .doc = "At the faces of the domain: a concentration, or `no_flux`; one for all, or by face. Ignored on periodic axes.",

@@ -174,7 +174,7 @@ void declare_initial(Section& s, draft::Initial& i) {
               .example = "60 um"},
              i.radius);
   s.vector({.name = "size",
-            .doc = "Edges of a box to fill.",
+            .doc = "Edges of a box to fill; of the rectangle that a layer keeps to, whose edge along the normal does not count.",
             .quantity = Q::kLength,
             .low = 0.0,
             .low_open = true,

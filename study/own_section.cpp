@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/cell_id_text.h"
+#include "core/numbers/joined.h"
 #include "study/declare.h"
 
 namespace morula::scenarios {
@@ -93,6 +94,14 @@ std::vector<std::string> missing_keys(const std::vector<OwnKey>& keys, const dra
   for (const OwnKey& key : keys)
     if (key.spec.required && !find(own, key.spec.name).given) out.emplace_back(key.spec.name);
   return out;
+}
+
+std::string example_of(const std::vector<OwnKey>& keys, const std::vector<std::string>& names) {
+  std::string out;
+  for (const OwnKey& key : keys)
+    if (key.spec.example != nullptr && std::ranges::find(names, key.spec.name) != names.end())
+      out += (out.empty() ? "" : ", ") + std::string(key.spec.name) + ": " + key.spec.example;
+  return out.empty() ? out : "for example `" + out + "`";
 }
 
 namespace {
@@ -268,9 +277,11 @@ bool check_choice(BuildContext& c, const std::vector<OwnKey>& chosen, const std:
       told.emplace_back(key.spec.name);
       tell_without_effect(c, key.spec.name, own, "it has none with `" + word.value + "`");
     }
-  std::string missing;
-  for (const std::string& name : missing_keys(chosen, own)) missing += (missing.empty() ? "`" : ", `") + name + "`";
-  if (!missing.empty()) c.diagnostics.error(103, word.place, "`" + word.value + "` needs " + missing, "");
+  const std::vector<std::string> missing = missing_keys(chosen, own);
+  if (!missing.empty())
+    c.diagnostics.error(103, word.place,
+                        "`" + word.value + "` needs " + joined(missing, [](const std::string& name) { return "`" + name + "`"; }),
+                        example_of(chosen, missing));
   return missing.empty();
 }
 

@@ -15,6 +15,8 @@ void declare_own_keys(Section& section, const std::vector<const std::vector<OwnK
 
 /// Names of the keys that must be given and are not.
 std::vector<std::string> missing_keys(const std::vector<OwnKey>& keys, const draft::OwnSection& own);
+/// How keys of these names may be written: "for example `field: oxygen`".
+std::string example_of(const std::vector<OwnKey>& keys, const std::vector<std::string>& names);
 /// Names of the keys that are given.
 std::vector<std::string> given_keys(const std::vector<OwnKey>& keys, const draft::OwnSection& own);
 /// Where a key stands that is given.

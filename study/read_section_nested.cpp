@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 
@@ -185,6 +186,15 @@ bool ReadSection::take_suffixed(const Node::Entry& entry) {
   return false;
 }
 
+namespace {
+
+/// In `{duration: 18,5 h}` what is behind the comma is a key without a value.
+bool is_behind_a_decimal_comma(const Node::Entry& entry) {
+  return !entry.key.empty() && std::isdigit(static_cast<unsigned char>(entry.key.front())) != 0 && entry.value.kind == Node::Kind::kNull;
+}
+
+}  // namespace
+
 void ReadSection::finish() {
   if (!node_) return;
   const std::string where = path_.empty() ? "the study" : "`" + path_ + "`";
@@ -193,7 +203,9 @@ void ReadSection::finish() {
     if (diagnostics_.full())  // a suggestion for each of very many keys would take minutes, and none would be shown
       diagnostics_.error(101, entry.key_place, "", "");
     else
-      diagnostics_.error(101, entry.key_place, "unknown key '" + entry.key + "' in " + where, suggest(entry.key, declared_));
+      diagnostics_.error(101, entry.key_place, "unknown key '" + entry.key + "' in " + where,
+                         is_behind_a_decimal_comma(entry) ? "numbers have a decimal point, `18.5 h`: a comma begins the next key"
+                                                          : suggest(entry.key, declared_));
   }
 }
 

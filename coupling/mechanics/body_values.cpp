@@ -112,13 +112,15 @@ void Mechanics::attach(Tissue& tissue) {
 void Mechanics::look(const Tissue& tissue) {
   (void)prepare(*work_, tissue);
   SphereContacts& spheres = *work_->terms.spheres;
-  const bool renewed = spheres.renew_sisters(work_->world(tissue));
+  const World world = work_->world(tissue);
+  const bool curvature = spheres.renew_curvature(world), sisters = spheres.renew_sisters(world);
   // The packing of sisters counts at their neighbours, too. The forces are those of a step from here on, whose sisters are the same.
-  if (spheres.packs() && work_->setting.comm.any(renewed)) {
+  const std::int64_t renewed = work_->setting.comm.max(std::int64_t{sisters ? 2 : curvature ? 1 : 0});
+  if (spheres.packs() && renewed == 2) {
     Evaluation now = evaluate(*work_, tissue, {});
     work_->known = Known{now.energy, std::move(now.force)};
-  } else if (renewed) {
-    work_->known->force.reset();
+  } else if (renewed > 0) {
+    work_->known.reset();
   }
 }
 

@@ -35,7 +35,7 @@ Result<StepReport, StepFault> explicit_step(Workspace& work, Tissue& tissue, con
   const Evaluation end = evaluate(work, tissue, {});
   if (work.setting.comm.any(any_crossed(work, tissue, start))) return undo({"a surface would pass through another", {}, true});
   if (const auto fault = find_fault(work, tissue); work.setting.comm.any(fault.has_value()))
-    return undo(fault.value_or(StepFault{"a cell on another rank is too distorted", {}, true}));
+    return undo(fault.value_or(StepFault{}));  // that of another rank is told
   finish_step(work, tissue, task, end.energy, report);
   return report;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "coupling/mechanics/body_factors.h"
+#include "coupling/mechanics/shell_faults.h"
 
 namespace morula {
 
@@ -23,10 +24,7 @@ void Membranes::evaluate(const World& world, Forces& out) {
 }
 
 std::optional<StepFault> Membranes::fault(const World& world) const {
-  const auto& faults = shells_.forces().fault;
-  for (std::size_t i = 0; i < faults.size(); ++i)
-    if (faults[i]) return StepFault{dcm::describe(faults[i]), world.scene.bodies()[i].id, true};
-  return std::nullopt;
+  return first_fault(shells_.forces().fault, [&](std::size_t i) { return world.scene.bodies()[i].id; });
 }
 
 void Membranes::begin_step(const World& world, StepStart&) { shells_.begin_step(world.tissue.shells, world.geometry); }

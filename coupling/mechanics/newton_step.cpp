@@ -293,15 +293,14 @@ Result<bool, StepFault> NewtonStep::thaw(const Direction& newton) {
 
 StepFault NewtonStep::stuck() const {
   const bool crossing = work_.setting.comm.any(report_.crossings > 0);
-  StepFault fault{crossing ? "no step lowers the energy without a surface passing through another" : "no step lowers the energy", {}, true};
-  if (const auto shape = find_fault(work_, tissue_)) fault = *shape;
+  if (const auto shape = find_fault(work_, tissue_)) return *shape;
+  StepFault fault{crossing ? "no step lowers the energy without a surface passing through another" : "no step lowers the energy", {}};
   const std::vector<Vec3d>& left = now_->force;
-  double worst = 0.0;
   std::uint32_t at = 0;
   for (const ContactBody& body : work_.scene.bodies())
     for (std::uint32_t i = body.first_point; body.active() && i < body.first_point + body.point_count; ++i)
-      if (norm2(left[i]) > worst) {
-        worst = norm2(left[i]);
+      if (const double here = norm(left[i]); here > fault.left || (here == fault.left && here > 0.0 && body.id < fault.cell)) {
+        fault.left = here;
         fault.cell = body.id;
         at = i;
       }

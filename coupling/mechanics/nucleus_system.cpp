@@ -4,6 +4,7 @@
 
 #include "core/parallel/threads.h"
 #include "coupling/mechanics/contact_setup.h"
+#include "coupling/mechanics/shell_faults.h"
 #include "dcm/interior_noise.h"
 
 namespace morula {
@@ -153,10 +154,9 @@ void NucleusSystem::evaluate(const World& world, Forces& out) {
 }
 
 std::optional<StepFault> NucleusSystem::fault(const World& world) const {
-  for (std::size_t k = 0; k < items_.size(); ++k)
-    if (const auto& fault = shells_.forces().fault[k])
-      return StepFault{"nucleus: " + dcm::describe(fault), world.scene.bodies()[items_[k].shell].id, true};
-  return std::nullopt;
+  auto fault = first_fault(shells_.forces().fault, [&](std::size_t k) { return world.scene.bodies()[items_[k].shell].id; });
+  if (fault) fault->what = "nucleus: " + fault->what;
+  return fault;
 }
 
 bool NucleusSystem::crossed(const World&, std::span<const Vec3d>) const {

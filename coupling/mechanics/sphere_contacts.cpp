@@ -21,6 +21,14 @@ double arm_of_b(const cbm::PairBlock& block, int lane) {
   return cbm::contact_arm(block.distance[lane], block.radius_b[lane], block.radius_a[lane]);
 }
 
+/// Whether some smooth part of a surface is not flat.
+bool is_curved(const RigidSurface& surface) {
+  constexpr double kFlat = 1e-12;  // [1/µm], [1/µm²]
+  return std::ranges::any_of(surface.curvature, [](const std::array<SurfaceCurvature, 3>& face) {
+    return std::ranges::any_of(face, [](const SurfaceCurvature& c) { return std::abs(c.mean) > kFlat || std::abs(c.gaussian) > kFlat; });
+  });
+}
+
 }  // namespace
 
 SphereContacts::SphereContacts(const Model& model, SurfaceContacts& surfaces)
@@ -34,6 +42,7 @@ SphereContacts::SphereContacts(const Model& model, SurfaceContacts& surfaces)
     }
   list_.set_friction(std::move(friction), table_.type_count());
   for (const CellType& type : model_.types) packing_.acts = packing_.acts || !type.sphere.packing.empty();
+  for (const RigidSurface& obstacle : layer().obstacles()) is_curved_.push_back(is_curved(obstacle));
 }
 
 template <class Wanted, class Sink, class FarAway>
@@ -272,6 +281,20 @@ void SphereContacts::refresh_values(const Scene& scene, const std::vector<char>&
     evaluate_rigid(scene, k);
     virial_[pair.sphere] += pair.distance * pair.force;
   }
+}
+
+bool SphereContacts::renew_curvature(const World& world) {
+  std::vector<char> marked;
+  for (RigidPair& pair : rigid_) {
+    if (!is_curved_[pair.obstacle] || !pair.curvature) continue;
+    const SurfaceCurvature before = *pair.curvature;
+    if (!locate_rigid(world.scene, pair) || (pair.curvature->mean == before.mean && pair.curvature->gaussian == before.gaussian)) continue;
+    if (marked.empty()) marked.assign(world.scene.bodies().size() - world.scene.first_sphere(), 0);
+    marked[pair.sphere] = 1;
+  }
+  if (marked.empty()) return false;
+  refresh_values(world.scene, marked);
+  return true;
 }
 
 void SphereContacts::end_step(const World& world, StepEnd& end) {

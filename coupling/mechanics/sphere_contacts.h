@@ -53,6 +53,9 @@ class SphereContacts : public Term {
   bool update_attached(const World& world, Tissue& tissue);
   /// The time has moved on: rest distances and pressures of young sisters anew. Returns whether any has changed.
   bool renew_sisters(const World& world);
+  /// Spheres have gone on along curved obstacles: the curvature where they are now, which is kept within a step, and pressures with it. Returns whether any
+  /// has changed.
+  bool renew_curvature(const World& world);
   /// Σ_k (x_i − x_k)·f_k over the contacts of owned sphere i with spheres and obstacles [nN·µm].
   [[nodiscard]] double virial(std::size_t i) const { return virial_[i]; }
   /// What spheres and obstacles do to a sphere.
@@ -191,6 +194,7 @@ class SphereContacts : public Term {
   std::vector<Sisters> sisters_;      ///< by pair
   std::vector<std::uint32_t> young_;  ///< spheres that came since the last step: who adheres to them may still get another name; increasing
   std::vector<RigidPair> rigid_;      ///< by sphere, obstacle and part
+  std::vector<char> is_curved_;       ///< by obstacle: some smooth part is not flat
   std::vector<double> virial_;        ///< by owned sphere [nN·µm]
   std::vector<std::uint32_t> adhering_;  ///< by sphere, ghosts too: how many of its pairs are attached
   Packing packing_;

@@ -1,17 +1,25 @@
 #pragma once
+#include <limits>
 #include <string>
 
 #include "core/cell_id.h"
+#include "core/parallel/comm.h"
 #include "core/vec3.h"
 
 namespace morula {
 
 /// Why a step could not be done as asked.
 struct StepFault {
+  static constexpr double kNoShape = std::numeric_limits<double>::infinity();
+
   std::string what;
   CellId cell;  ///< where, if known
   bool smaller_step_may_help = true;
+  double left = 0.0;  ///< force without balance there [nN]; kNoShape: the cell cannot have the shape that it has
 };
+
+/// Of what each rank has found the worst, and of equals that of the first cell: what all of them tell. Collective.
+StepFault worst_of_all_ranks(StepFault here, const Comm& comm);
 
 /// How a tissue moved as a whole in a step, every point weighted by its friction with the medium. Forces between cells leave drift and
 /// rotation as they are, but for friction between cells, which turns them where it feels common rotations (core/contact/objective_friction.h).

@@ -8,7 +8,7 @@
 namespace morula {
 namespace {
 
-constexpr double kCappedDepth = 5.0;      // overlap that the capped start can undo [µm]
+constexpr double kMostDepth = 5.0;        // overlap that is seen; the capped start can undo it [µm]
 constexpr double kCapWithoutStart = 0.1;  // δ after a promotion into too little room, where the study has no capped start [µm]
 
 template <class T>
@@ -29,10 +29,10 @@ bool has_regional_adhesion(const Model& model) {
 ContactStrength strength_now(const Model& model, const Clock& clock, const Settling* settling) {
   ContactStrength out;
   if (settling != nullptr) out = settling->strength;
-  if (!clock.capped)
-    out.cap = out.depth = 0.0;
+  if (!clock.capped)  // what a run may have is seen all the same, or forces would be those of where lists were made
+    out.cap = 0.0, out.depth = std::min(model.limits.overlap, kMostDepth);
   else if (settling == nullptr)
-    out.cap = model.step.start_cap > 0.0 ? model.step.start_cap : kCapWithoutStart, out.depth = kCappedDepth;
+    out.cap = model.step.start_cap > 0.0 ? model.step.start_cap : kCapWithoutStart, out.depth = kMostDepth;
   return out;
 }
 

@@ -45,6 +45,7 @@ void add_exchange(const EventLine& event, std::map<std::string, ReportExchanges>
     ReportExchanges& all = by_kind[event.kind];
     all.room += effect.room;
     all.largest_force = std::max(all.largest_force, effect.largest_force);
+    all.largest_own_way = std::max(all.largest_own_way, effect.own_way);
     ++all.count;
     if (effect.neighbours > 0)  // none are looked at before the first step
       all.mean_force += (effect.mean_force - all.mean_force) / static_cast<double>(++all.measured);

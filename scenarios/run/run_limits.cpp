@@ -1,6 +1,4 @@
-#include "core/numbers/joined.h"
 #include "core/numbers/number_text.h"
-#include "coupling/lumens.h"
 #include "scenarios/run/run_loop.h"
 
 namespace morula::scenarios {
@@ -23,11 +21,6 @@ Status RunLoop::check_capped_start() const {
       ErrorKind::kPhysics,
       "the capped start has not ended by " + time_text(tissue.clock.time) + ": cells still lie deeper in each other than 0.1 um [E662]",
       "place them further apart, or start them smaller (`start_volume`, `inflate`); `numerics.start_cap_within` is the time it has"};
-}
-
-void RunLoop::warn_near_limit(Warned what, const std::string& text) {
-  if ((warned_ & what) == 0) warn(text);
-  warned_ |= what;
 }
 
 Status RunLoop::check_limits(const Measures& m) {
@@ -76,71 +69,6 @@ Status RunLoop::check_limits(const Measures& m) {
                                         " beyond the domain at " + time_text(m.time) +
                                         ", where no field is: they see and take what is in its outermost voxels; make the domain larger");
   return {};
-}
-
-/// What a cavity held is gone once it is open, and all checks may pass.
-void RunLoop::tell_open_cavities(const Measures& m) {
-  const Tissue& tissue = simulation_->tissue();
-  std::vector<std::string> open;
-  for (std::size_t k = 0; k < tissue.lumens.size(); ++k) {
-    const Lumen& lumen = study_.model.lumens[k];
-    if (tissue.lumens[k].looked_at >= lumen.from && tissue.lumens[k].covered < kBurst) open.push_back(lumen.name);
-  }
-  if (open.empty()) return;
-  warn_near_limit(kCavityOpen, "open at " + time_text(m.time) +
-                                   ", and no cavity any more: " + joined(open, [](const std::string& name) { return "'" + name + "'"; }) +
-                                   ". More than half of the directions from the centre meet no wall, and the fluid presses nothing (" +
-                                   joined(open, [](const std::string& name) { return "`open_" + name + "`"; }) + " in series.csv)");
-}
-
-void RunLoop::tell_creeping(const StepOutcome& outcome) {
-  constexpr double kShort = 1e-4;  // of the first step
-  constexpr int kMany = 500;
-  if (outcome.mechanics.step >= kShort * study_.model.step.initial_step || simulation_->tissue().clock.capped) {
-    short_steps_ = 0;
-    return;
-  }
-  if (++short_steps_ != kMany || (warned_ & kCreeping) != 0) return;
-  const double left = end_ - simulation_->tissue().clock.time;
-  // to the log alone: steps in a row are not counted over a restart
-  note(Note::Kind::kWarning, "the last " + std::to_string(kMany) + " steps had " + number_text("%.1g s", outcome.mechanics.step) +
-                                 " each, and there are " + time_text(left) +
-                                 " to go: something folds or shakes where no longer step is found (see the last snapshot: noise, very "
-                                 "strong adhesion or loads, meshes that have lost their shape)");
-  warned_ |= kCreeping;
-}
-
-void RunLoop::tell_to_and_fro(const Event& event, const std::string& reason) {
-  constexpr int kTooOften = 4;
-  if (event.kind != EventKind::kPromotion || event.reason.cause != EventReason::Cause::kTrigger) return;
-  if (++promotions_[event.cell] != kTooOften) return;
-  warn_near_limit(kToAndFro, "cell " + event.cell.text() + " became a shell for the " + std::to_string(kTooOften) +
-                                 "th time: what the rule (" + reason +
-                                 ") compares is another number for a shell than for a sphere in its place. Put its thresholds farther "
-                                 "apart, or give spheres the law of "
-                                 "these shells (`morula calibrate`)");
-}
-
-/// Elastic spheres are spheres as long as their contacts are small (cbm.md §2), and a fit holds where it was made.
-void RunLoop::tell_contacts_beyond(const Measures& m) {
-  constexpr double kMostBeyond = 0.1;
-  if ((warned_ & kBeyondRange) != 0 || !(static_cast<double>(m.contacts_beyond) > kMostBeyond * static_cast<double>(m.sphere_contacts)))
-    return;
-  note(Note::Kind::kNote,
-       std::to_string(m.contacts_beyond) + " of " + std::to_string(m.sphere_contacts) +
-           " contacts of spheres are outside the range of their law (`contacts_beyond_range` in series.csv): the overlaps it "
-           "was fitted to, or else a contact radius of 0.45 R");
-  warned_ |= kBeyondRange;
-}
-
-/// The budget of shells holds for spheres that are to become shells; what a study costs beyond it its user should know.
-void RunLoop::tell_shells_beyond_budget(const Measures& m) {
-  const std::uint64_t most = study_.model.swaps.max_shells;
-  if ((warned_ & kMoreShells) != 0 || static_cast<std::uint64_t>(m.shells) <= most) return;
-  const bool founders = m.time == 0.0;
-  note(Note::Kind::kNote, std::to_string(m.shells) + " cells are shells, more than `coupling.max_shells` (" + std::to_string(most) +
-                              "): " + (founders ? "cells that begin as shells" : "daughters of shells") + " are shells whatever it says");
-  warned_ |= kMoreShells;
 }
 
 /// The pressure of packing holds within the range it was calibrated in (cbm.md §3).

@@ -78,32 +78,6 @@ void RunLoop::expect_growth(const std::vector<std::int64_t>& of_type) {
   load_.most_shells = most_shells(study_.model, static_cast<double>(progress_.cells));
 }
 
-void RunLoop::note(Note::Kind kind, const std::string& text) {
-  if (!comm_.is_root()) return;
-  const double time = simulation_->tissue().clock.time;
-  const Status written = folder_.add_to_log((kind == Note::Kind::kNote ? "note  " : "warn  ") + time_text(time) + "  " + text);
-  if (!written.ok() && text_status_.ok()) text_status_ = written;
-  if (request_.on_note) request_.on_note({kind, time, text});
-}
-
-void RunLoop::warn(const std::string& text) {
-  note(Note::Kind::kWarning, text);
-  warnings_.push_back({{simulation_->tissue().clock.time, EventKind::kWarning, {}, {}, {}, {}}, text});
-}
-
-void RunLoop::keep_events(std::span<const Event> events) {
-  if (!comm_.is_root()) return;  // the root writes them, and makes their words
-  for (const Event& event : events) events_.push_back(told(event, study_.model));
-}
-
-Status RunLoop::write_events() {
-  Status written = folder_.add_events(warnings_);
-  if (written.ok()) written = folder_.add_events(events_);
-  warnings_.clear();
-  events_.clear();
-  return written;
-}
-
 Status RunLoop::begin() {
   std::vector<SeriesHeader> header;
   for (const Observable& column : columns_) header.push_back({column.name, column.unit});
@@ -122,21 +96,6 @@ Status RunLoop::begin() {
   return checkpoint();
 }
 
-/// Loads on marked faces that no face bears yet.
-void RunLoop::tell_idle_loads() {
-  const Model& model = study_.model;
-  const dcm::Shells& shells = simulation_->tissue().shells;
-  for (const CellLoad& load : model.loads) {
-    if (load.mark < 0) continue;
-    bool borne = false;
-    for (std::size_t i = 0; i < shells.size(); ++i)
-      if (shells.type[i] == load.type) borne = borne || shells.marks_of(i).any_has(load.mark);
-    if (!comm_.any(borne))
-      note(Note::Kind::kWarning, "load '" + load.name + "' acts nowhere: no face of '" + model.types[load.type].name + "' has the mark '" +
-                                     model.mark_names[static_cast<std::size_t>(load.mark)] + "' at the start");
-  }
-}
-
 Status RunLoop::go_back(const CheckpointInfo& checkpoint) {
   warned_ = checkpoint.warned;
   interval_ = checkpoint.interval;
@@ -153,22 +112,6 @@ Status RunLoop::go_back(const CheckpointInfo& checkpoint) {
         "events.jsonl is damaged: some of what happened up to here is lost from it, and criteria, report and lineage know of the rest "
         "alone");
   return tell_what_is_lost();
-}
-
-Status RunLoop::tell_what_is_lost() {
-  std::size_t rows = 0, snapshots = 0;
-  const auto count = [&]() -> Status {
-    MORULA_TRY_ASSIGN(const SeriesTable series, read_series(folder_.series()));
-    MORULA_TRY_ASSIGN(const auto there, list_snapshots(folder_.results()));
-    rows = series.rows(), snapshots = there.size();
-    return {};
-  };
-  MORULA_TRY(agree(comm_.is_root() ? count() : Status{}, comm_));
-  if (comm_.any(rows != snapshots))
-    warn("up to here series.csv has " + std::to_string(comm_.sum(static_cast<std::int64_t>(rows))) + " rows, results.h5 " +
-         std::to_string(comm_.sum(static_cast<std::int64_t>(snapshots))) +
-         " snapshots: some were lost, and criteria, pictures and lineage know of those alone that are left");
-  return {};
 }
 
 Status RunLoop::write_results(const std::function<Status()>& write) {
@@ -301,35 +244,6 @@ Status RunLoop::write_moment(const Measures& measures) {
   if (written.ok()) written = write_events();
   if (written.ok()) written = folder_.write_status(status(RunState::kRunning));
   return agree(std::move(written), comm_);
-}
-
-/// What happened since the last output, counted: `14 promotions (region core)`.
-void RunLoop::tell_events() {
-  struct Exchanges {
-    std::size_t count = 0;
-    double room = 0.0, later = 0.0, volume = 0.0;  // [µm³]
-  };
-  std::map<std::pair<EventKind, std::string>, Exchanges> exchanges;
-  for (const auto& [event, text, types] : events_) {
-    if (event.kind != EventKind::kPromotion && event.kind != EventKind::kDemotion) continue;
-    tell_to_and_fro(event, text);
-    Exchanges& one = exchanges[{event.kind, text}];
-    ++one.count;
-    if (event.exchange) one.room += event.exchange->room, one.later += event.exchange->later, one.volume += event.exchange->volume;
-  }
-  for (const auto& [what, all] : exchanges) {
-    const bool up = what.first == EventKind::kPromotion, one = all.count == 1;
-    const char* became =
-        up ? (one ? " cell became a shell (" : " cells became shells (") : (one ? " cell became a sphere (" : " cells became spheres (");
-    const std::string room = number_text("%.3g um^3", std::abs(all.room)) + " (" +
-                             number_text("%.2g %%", 100.0 * std::abs(all.room) / all.volume) + " of " + (one ? "its" : "their") +
-                             " volume) " + (up ? "more" : "less") + " room than before" +
-                             (all.later > 0.0 ? ", " + number_text("%.3g um^3", all.later) + " of it little by little" : "");
-    note(Note::Kind::kNote, std::to_string(all.count) + became + what.second + ")" +
-                                (all.room != 0.0 && all.volume > 0.0 ? (one ? "; it takes " : "; they take ") + room : ""));
-  }
-  for (const auto& [event, text, types] : events_)
-    if (event.kind == EventKind::kWarning) note(Note::Kind::kWarning, "cell " + event.cell.text() + ": " + text);
 }
 
 Status RunLoop::write_tables() {

@@ -33,8 +33,8 @@ struct Packing {
 Packing pack_cells(const InitialCells& block, std::span<const double> radius, double touch, const Space& space, std::uint64_t first_number,
                    std::uint32_t seed, const Surroundings& around = {}, int threads = 1);
 
-/// A layer on the block's plane: a hexagonal lattice around the point below `center`, each cell its radius above the plane, pushed apart along
-/// it where radii differ. As pack_cells() otherwise.
+/// A layer on the block's plane: a hexagonal lattice around the point below `center`, from there outwards as a disc or, within a box, as a rectangle, each
+/// cell its radius above the plane, pushed apart along it where radii differ. As pack_cells() otherwise.
 Packing layer_cells(const InitialCells& block, std::span<const double> radius, double touch, const Space& space,
                     const Surroundings& around = {}, int threads = 1);
 

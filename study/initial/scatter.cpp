@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "core/random/philox.h"
 #include "study/initial/packing.h"
@@ -13,6 +14,8 @@ namespace {
 constexpr double kSparse = 0.30;            // of the volume: up to here cells are placed one by one
 constexpr std::uint64_t kMostTries = 2000;  // of one cell; at 38 % of the volume one try in a thousand still finds a place
 constexpr std::uint64_t kFirstDraw = 16;    // of the stream; lower ones are those of packing
+constexpr double kNowhere = 1e300;          // [µm]
+constexpr double kOblique = 1.8;            // a way along a plane over that along an axis of the domain which is not nearest to its normal
 constexpr int kLayerPasses = 400;
 constexpr double kLayerSlack = 1e-3;  // of the mean radius
 
@@ -26,6 +29,42 @@ std::pair<Vec3d, Vec3d> along(const Vec3d& normal) {
   u = normalized(u - normal * dot(u, normal));
   return {u, cross(normal, u)};
 }
+
+/// The box that a layer keeps to: its edges that are not along the normal.
+class LayerBox {
+ public:
+  LayerBox(const InitialCells& block, const Vec3d& middle) : middle_(middle), half_(block.size * 0.5) {
+    const Vec3d& normal = block.plane.normal;
+    for (std::size_t axis = 1; axis < 3; ++axis)
+      if (std::abs(normal[axis]) > std::abs(normal[across_])) across_ = axis;
+  }
+  /// How far p is from the faces that count; negative inside [µm].
+  [[nodiscard]] double beyond(const Vec3d& p) const {
+    double most = -kNowhere;
+    for_edges([&](std::size_t axis) { most = std::max(most, std::abs(p[axis] - middle_[axis]) - half_[axis]); });
+    return most;
+  }
+  /// 1 on the border, as little along each edge as it is of its half.
+  [[nodiscard]] double part(const Vec3d& p) const {
+    double most = 0.0;
+    for_edges([&](std::size_t axis) { most = std::max(most, std::abs(p[axis] - middle_[axis]) / half_[axis]); });
+    return most;
+  }
+  [[nodiscard]] double longest_half() const {
+    double most = 0.0;
+    for_edges([&](std::size_t axis) { most = std::max(most, half_[axis]); });
+    return most;
+  }
+
+ private:
+  template <class F>
+  void for_edges(F&& f) const {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (axis != across_) f(axis);
+  }
+  Vec3d middle_, half_;
+  std::size_t across_ = 0;  ///< the edge that is nearest to the normal
+};
 
 bool keeps_off_walls(const Vec3d& p, double radius, const Space& space) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -132,28 +171,32 @@ Packing layer_cells(const InitialCells& block, std::span<const double> radius, d
   const auto [u, v] = along(plane.normal);
   const Vec3d middle = block.center - plane.normal * dot(block.center - plane.point, plane.normal);
   const double row = spacing * 0.5 * std::numbers::sqrt3;
-  const double widest = block.radius > 0.0 ? block.radius - mean : 1e300;
+  const std::optional<LayerBox> box = block.fill == FillShape::kBox ? std::optional<LayerBox>(std::in_place, block, middle) : std::nullopt;
+  const double widest = box ? box->longest_half() : block.radius > 0.0 ? block.radius - mean : kNowhere;
   struct Site {
     double distance;
     Vec3d p;
   };
   std::vector<Site> sites;
-  // A disc of n hexagonal sites has the radius spacing √(n √3/(2 π)); what is in the way asks for a wider one, up to four times.
+  // A disc of n hexagonal sites has the radius spacing √(n √3/(2 π)); what is in the way asks for a wider one, up to four times. A box fills as a box.
   const double disc = spacing * (std::sqrt(static_cast<double>(radius.size()) * std::numbers::sqrt3 / (2.0 * std::numbers::pi)) + 1.0);
   for (double reach = disc;; reach *= 1.3) {
     sites.clear();
     const double limit = std::min(reach, widest);
-    const auto rows = static_cast<std::int64_t>(limit / row) + 1, columns = static_cast<std::int64_t>(limit / spacing) + 2;
+    const double along_plane = box ? kOblique * limit : limit;
+    const auto rows = static_cast<std::int64_t>(along_plane / row) + 1, columns = static_cast<std::int64_t>(along_plane / spacing) + 2;
     for (std::int64_t j = -rows; j <= rows; ++j)
       for (std::int64_t i = -columns; i <= columns; ++i) {
         const double x = spacing * (static_cast<double>(i) + (j % 2 != 0 ? 0.5 : 0.0)), y = row * static_cast<double>(j);
-        const double distance = std::hypot(x, y);
         const Vec3d p = middle + u * x + v * y + plane.normal * mean;
+        const double distance = box ? box->part(p) * widest : std::hypot(x, y);
         Vec3d ignored;
-        if (distance > limit || !space.box.contains(p) || !keeps_off_walls(p, mean * (1.0 - 1e-9), space)) continue;
+        if (distance > limit || (box && box->beyond(p) > -mean) || !space.box.contains(p) ||
+            !keeps_off_walls(p, mean * (1.0 - 1e-9), space))
+          continue;
         if (around.push(p, mean * (1.0 - 1e-9), touch, ignored) <= 0.0) sites.push_back({distance, p});
       }
-    if (sites.size() >= radius.size() || reach >= widest || reach > 4.0 * disc) break;
+    if (sites.size() >= radius.size() || reach >= widest || (!box && reach > 4.0 * disc)) break;
   }
   out.room = std::min<std::uint64_t>(sites.size(), radius.size());
   if (out.room < radius.size()) return out;
@@ -169,11 +212,13 @@ Packing layer_cells(const InitialCells& block, std::span<const double> radius, d
     const PushApart how{touch, kLayerSlack * mean, kLayerPasses, 0, middle, &around, &plane};
     out.worst_overlap = push_apart(out.center, radius, how, space, &out.worst_intrusion);
   }
-  if (block.radius > 0.0)
-    for (std::size_t i = 0; i < radius.size(); ++i) {
-      const Vec3d from = out.center[i] - middle;
-      out.reach_beyond = std::max(out.reach_beyond, norm(from - plane.normal * dot(from, plane.normal)) + radius[i] - block.radius);
-    }
+  const auto beyond = [&](const Vec3d& p) {
+    if (box) return box->beyond(p);
+    const Vec3d from = p - middle;
+    return norm(from - plane.normal * dot(from, plane.normal)) - block.radius;
+  };
+  for (std::size_t i = 0; widest < kNowhere && i < radius.size(); ++i)
+    out.reach_beyond = std::max(out.reach_beyond, beyond(out.center[i]) + radius[i]);
   return out;
 }
 

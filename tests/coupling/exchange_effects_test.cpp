@@ -53,6 +53,8 @@ void expect_effects_of_the_whole_tissue(const Model& model, std::size_t shell_ev
     events.push_back({0.0, EventKind::kPromotion, cell.row.id, {}, {}, {}});
     events.back().exchange = ExchangeEffect{.room = watch.caps_of(cell.row.id)};
   }
+  for (Vec3d& node : changed.back().shell->position) node += Vec3d{0.03, 0.0, 0.04};
+  const CellId moved = changed.back().row.id;
   replace_cells(tissue, rows, std::move(changed));
   tell_exchanges(watch, tissue, mechanics, shapes, Comm(), events);
   const auto after = forces_on_all(model, shapes, tissue);
@@ -70,6 +72,7 @@ void expect_effects_of_the_whole_tissue(const Model& model, std::size_t shell_ev
       const double change = norm(after.at(id) - before.at(id));
       most = std::max(most, change), sum += change, ++neighbours;
     }
+    EXPECT_NEAR(event.exchange->own_way, event.cell == moved ? 0.05 / kRadius : 0.0, 1e-3) << "a mesh has its middle where its ball had it";
     EXPECT_EQ(event.exchange->neighbours, neighbours);
     EXPECT_NEAR(event.exchange->largest_force, most, 1e-9 * (1.0 + most));
     EXPECT_NEAR(event.exchange->mean_force, sum / neighbours, 1e-9 * (1.0 + most));

@@ -103,7 +103,28 @@ TEST(Protrusion, IsBorneByTheFrontAndAnInternalOneHasNoSum) {
   ASSERT_TRUE(add_protrusion(law, *shape->topology, shape->position, p, {}, p, law.force, force));
   EXPECT_LT(norm(sum_of(force)), 1e-13);
   const std::vector<char> nowhere(642, 0);
-  EXPECT_FALSE(add_protrusion(law, *shape->topology, shape->position, p, nowhere, p, law.force, force));
+  EXPECT_FALSE(add_protrusion(law, *shape->topology, shape->position, p, {nowhere, {0, 0, 1}}, p, law.force, force));
+}
+
+/// A round cell touches what it lies on with a small cap, all of which is far from its polarity: the part of the cap that lies ahead is the front.
+TEST(Protrusion, OfARoundCellIsBorneByTheFrontOfItsContact) {
+  ShapeLibrary shapes;
+  const auto shape = shapes.icosphere(642).value();
+  Protrusion law;
+  law.force = 2.0;
+  law.angle = 0.7;
+  std::vector<char> touches(642, 0);
+  for (std::size_t i = 0; i < touches.size(); ++i) touches[i] = normalized(shape->position[i]).z < -0.9;
+  const Vec3d ahead = normalized(Vec3d{1, 2, 0});
+  std::vector<Vec3d> force(642);
+  ASSERT_TRUE(
+      add_protrusion(law, *shape->topology, shape->position, ahead + Vec3d{0, 0, 0.4}, {touches, {0, 0, 1}}, ahead, law.force, force));
+  EXPECT_NEAR(norm(sum_of(force) - ahead * 2.0), 0.0, 1e-12);
+  for (std::size_t i = 0; i < force.size(); ++i) {
+    const Vec3d x = shape->position[i];
+    const bool is_ahead = dot(Vec3d{x.x, x.y, 0}, ahead) > std::cos(0.7) * std::hypot(x.x, x.y) + 1e-12;
+    EXPECT_EQ(norm2(force[i]) > 0.0, touches[i] != 0 && is_ahead) << i;
+  }
 }
 
 /// T11.2: ΣF = 0 of an internal reaction, whatever the shape, so that V = ΣF/(γ A) < 1e-10 F_p/Γ in a uniform medium; T11.3: F_p with it

@@ -104,7 +104,7 @@ cell_types:
     friction: {obstacle: 0 N s/m^3}
     adhesion: {glass: 1e-4 J/m^2}
     polarity: {start: [1, 0, 0]}
-    protrusion: {force: 1 nN, substrate: glass, angle: 90 deg}
+    protrusion: {force: 1 nN, substrate: glass}
   ball_tilted: {like: ball, polarity: {start: [1, 0, -1.732]}}
   shell_tilted: {like: ball_tilted, body: shell}
 geometry:

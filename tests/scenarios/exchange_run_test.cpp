@@ -297,6 +297,7 @@ TEST(ExchangeRun, SaysThatCellsGoToAndFro) {
     EXPECT_NE(event.text.find("contact_share"), std::string::npos) << event.text;
   }
   EXPECT_EQ(warnings, 1);
+  EXPECT_TRUE(std::ranges::is_sorted(**events, {}, &EventLine::time));
   EXPECT_TRUE(std::ranges::any_of(promotions, [](const auto& one) { return one.second >= 4; }));
 }
 

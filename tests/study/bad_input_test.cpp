@@ -32,6 +32,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"DoubleKey", "title: S", "study: twice\ntitle: S",
              "study.yaml:3:1: error: key 'study' is given twice, first in line 2 [E102]"},
         Case{"DoubleKeyInFlow", "spread: 10 %}", "spread: 10 %, mean: 7 um}", "study.yaml:9:40: error: key 'mean' is given twice"},
+        Case{"DecimalComma", "spread: 10 %}", "spread: 10,5 %}", "numbers have a decimal point, `18.5 h`"},
         Case{"Missing", "domain: {size: [400 um, 400 um, 400 um], boundary: open}\n", "", "key 'domain' is missing in the study [E103]"},
         Case{"MissingInSection", "end: 96 h, ", "", "study.yaml:5:1: error: key 'end' is missing in `time` [E103]"},
         Case{"NoValue", "seed: 20261121", "seed:", "study.yaml:4:1: error: 'seed' has no value [E104]"},

@@ -160,6 +160,28 @@ TEST(Layer, LiesOnAPlaneBesideWhatIsThere) {
   EXPECT_GT(closest(cells), 0.93);
 }
 
+/// Places 9.5 µm apart: rows of 5 and 6 within 60 µm, three of them within 28 µm.
+TEST(Layer, KeepsToARectangle) {
+  const auto layer = [](const std::string& rest) {
+    return with_cells("  - {type: red, fill: layer, on: z_low, center: [3 um, -2 um, 0 um], " + rest + "}\n");
+  };
+  const std::string size = ", size: [60 um, 28 um, 1 um]";
+  const auto cells = cells_of(layer("count: 15" + size));
+  ASSERT_EQ(cells.size(), 15u);
+  double longest = 0.0, widest = 0.0;
+  for (const PlacedCell& cell : cells) {
+    longest = std::max(longest, std::abs(cell.center.x - 3.0));
+    widest = std::max(widest, std::abs(cell.center.y + 2.0));
+  }
+  EXPECT_GT(closest(cells), 0.93);
+  EXPECT_LE(longest, 25.0 + 1e-9);
+  EXPECT_GT(longest, 19.0);
+  EXPECT_LE(widest, 9.0 + 1e-9);
+  EXPECT_GT(widest, 8.0);
+  EXPECT_THAT(errors_of(layer("count: 30" + size)), AllOf(HasSubstr("[E658]"), HasSubstr("there are places for 17")));
+  EXPECT_THAT(errors_of(layer("count: 5, radius: 20 um" + size)), AllOf(HasSubstr("[E111]"), HasSubstr("`radius`")));
+}
+
 TEST(Layer, NeedsAPlaneOrAWall) {
   const auto error = [](const std::string& on) { return errors_of(with_cells("  - {type: red, count: 5, fill: layer" + on + "}\n")); };
   EXPECT_THAT(error(""), AllOf(HasSubstr("[E103]"), HasSubstr("on: z_low")));

@@ -16,6 +16,7 @@
 namespace morula::scenarios::test {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using Kind = OwnKey::Kind;
 
@@ -233,7 +234,8 @@ TEST(Registry, EveryLawOfMigrationIsReadAsItsExamplesSay) {
         expect_refused(with("migration: {law: " + one->info.name + ", " + key.spec.name + ": 3 parsec}"), key.spec.name);
   }
   const auto errors = [](const std::string& migration) { return errors_of(with("migration: {" + migration + "}")); };
-  EXPECT_THAT(errors("law: chemotaxis, speed: 2 um/h"), HasSubstr("`chemotaxis` needs `field` [E103]"));
+  EXPECT_THAT(errors("law: chemotaxis, speed: 2 um/h"),
+              AllOf(HasSubstr("`chemotaxis` needs `field` [E103]"), HasSubstr("for example `field: ")));
   EXPECT_THAT(errors("law: chemotaxis, field: oxigen"), HasSubstr("there is no field 'oxigen'"));
   EXPECT_THAT(errors("law: run_and_tumble, persistence: 10 min"), HasSubstr("'persistence' has no effect here [E515]"));
   EXPECT_THAT(errors("run_time: 10 min"), HasSubstr("it has none with `persistent_walk`"));

@@ -1,12 +1,11 @@
-// Every key that holds state, one small study each: a run that is stopped halfway and resumed ends in the bits of one that is not, and its
-// series and events are the same to the byte.
+// Every key that holds state, one small study each: a run that is stopped halfway and resumed, by one process or by three of which some have no cell,
+// ends in the bits of one that is not, and its series and events are the same to the byte.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "tests/system/morula_command.h"
-#include "tests/system/studies.h"
+#include "tests/system/runs_on_ranks.h"
 
 namespace morula::test {
 namespace {
@@ -101,6 +100,8 @@ std::vector<Feature> life() {
        "    dcm: {nodes: 42, cortex: {tension: 0.2 mN/m}}\ncontact: {range: 1.2 um}\ninitial:\n"
        "  - {type: cell, at: [[-7 um, 0 um, 0 um]], as: shell}\n  - {type: cell, at: [[7 um, 0 um, 0 um]], as: sphere}\noutput: {report: "
        "false}\n"},
+      {"MigrationOfAShell", typed("migration: {speed: 20 um/h, persistence: 10 min}, dcm: {nodes: 42, cortex: {tension: 0.2 mN/m}}"),
+       "[{type: cell, at: [[0 um, 0 um, 0 um]], as: shell}]", kRange},
       {"MigrationOfSpheres", typed("migration: {speed: 20 um/h, persistence: 10 min}"), kBall, ""},
       {"RunAndTumble", typed("migration: {speed: 20 um/h, law: run_and_tumble, run_time: 5 min}"), kBall, ""},
       {"Chemotaxis", typed("migration: {speed: 20 um/h, law: chemotaxis, field: bait, persistence: 10 min}"), kBall,
@@ -172,11 +173,14 @@ TEST_P(Resume, HalfwayEndsInTheBitsOfAWholeRun) {
   const Outcome half = run_morula({"run", "study.yaml", "--out", "parts", "--until", GetParam().until}, folder.path());
   ASSERT_EQ(half.exit_code, 0) << half.all();
   ASSERT_NE(hash_of("parts"), hash_of("whole")) << "half a run is no whole one";
-  const Outcome resumed = run_morula({"resume", "parts"}, folder.path());
-  ASSERT_EQ(resumed.exit_code, 0) << resumed.all();
-  EXPECT_EQ(hash_of("parts"), hash_of("whole"));
-  for (const char* text : {"series.csv", "events.jsonl"})
-    EXPECT_EQ(read_text(folder / "parts" / text), read_text(folder / "whole" / text)) << text;
+  fs::copy(folder / "parts", folder / "ranks", fs::copy_options::recursive);
+  for (const auto& [run, ranks] : {std::pair{"parts", 0}, std::pair{"ranks", 3}}) {
+    const Outcome resumed = run_morula({"resume", run}, folder.path(), on_ranks(ranks));
+    ASSERT_EQ(resumed.exit_code, 0) << resumed.all();
+    EXPECT_EQ(hash_of(run), hash_of("whole")) << run;
+    for (const char* text : {"series.csv", "events.jsonl"})
+      EXPECT_EQ(read_text(folder / run / text), read_text(folder / "whole" / text)) << run << ": " << text;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, Resume, testing::ValuesIn(all_features()),
