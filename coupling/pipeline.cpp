@@ -36,6 +36,8 @@ double end_of_step(double dt, double time, double land_on) {
 
 bool is_fluid(const CellType& type) { return !dcm::has_elastic_surface(type.shell); }
 
+constexpr double kDeep = 1.0;  // of an overlap that cells push each other out of at once [µm]
+
 /// Why no step size works: cell, law and time. Collective.
 Error refused(const Model& model, const Tissue& tissue, const StepFault& here, double dt, const Comm& comm) {
   const StepFault fault = worst_of_all_ranks(here, comm);
@@ -47,7 +49,9 @@ Error refused(const Model& model, const Tissue& tissue, const StepFault& here, d
   std::snprintf(when, sizeof when, early ? " at %.4g s" : " at %.6g h", early ? clock.time : clock.time / 3600.0);
   return {ErrorKind::kPhysics, fault.what + (fault.cell.valid() ? " (cell " + fault.cell.text() + ")" : "") + when,
           "the step was cut to " + std::to_string(dt) + " s without success; " +
-              (clock.capped && model.step.start_cap > 0.0 ? "`numerics: {start_cap: auto}` or a smaller cap, " : "") +
+              (clock.capped && model.step.start_cap > 0.0 ? "`numerics: {start_cap: auto}` or a smaller cap, "
+               : model.limits.overlap > kDeep             ? "`numerics: {start_cap: auto}` where cells begin deep in each other, "
+                                                          : "") +
               (model.loads.empty() ? "" : "smaller loads, or loads that grow slowly (`course`), ") +
               (both_bodies && std::ranges::any_of(model.types, is_fluid)
                    ? "an elastic cortex (`elastic: springs`) where shells are pressed among spheres, "

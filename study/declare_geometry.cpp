@@ -108,17 +108,16 @@ void declare_obstacle(Section& s, draft::Obstacle& o) {
            .optional_section = true,
            .example = "{from: [0 um, 0 um, 0 um], to: [0 um, 0 um, 15 um], radius: 2.5 um}"},
           o.pipette.present, [&o](Section& p) { declare_pipette(p, o); });
-  s.word({.name = "side",
-          .doc = "Where the cells are: outside the surface, or inside it (a capsule, a mould). A smooth part of a surface bears a sphere "
-                 "in one place "
-                 "only, its nearest point, with the curvature that it has there: what is to be confined by a mould, a mouth or a tube as "
-                 "narrow as a cell "
-                 "is a shell.",
-          .fallback = "outside",
-          .words = {"outside", "inside"},
-          .example = "inside",
-          .source = "chosen"},
-         o.side);
+  s.word(
+      {.name = "side",
+       .doc = "Where the cells are: outside the surface, or inside it (a capsule, a mould). A smooth part of a surface bears a sphere "
+              "in one place only, its nearest point, with the curvature that it has there, a hollow one where the smooth surface is that "
+              "its faces stand for: what is to be confined by a mould, a mouth or a tube as narrow as a cell is a shell.",
+       .fallback = "outside",
+       .words = {"outside", "inside"},
+       .example = "inside",
+       .source = "chosen"},
+      o.side);
   bool present = false;
   s.group({.name = "motion", .doc = "The word `fixed`, or a prescribed motion.", .shorthand = "velocity", .example = "fixed"}, present,
           [&o](Section& m) {

@@ -97,6 +97,7 @@ void find_smooth_parts(RigidSurface& surface) {
     std::sort(part.face.begin(), part.face.end());
   }
   surface.curvature = curvature_of_parts(topology, surface.position, surface.geometry, surface.part_of_face);
+  surface.corner_normal = normals_of_parts(topology, surface.position, surface.geometry, surface.part_of_face);
   if (surface.parts.size() == 1) return;
   for (SmoothPart& part : surface.parts) part.tree = tree_of(surface, part.face);
 }
@@ -108,6 +109,35 @@ void parts_near(const RigidSurface& surface, const Vec3d& p, double reach, std::
   const auto repeated = std::ranges::unique(parts);
   parts.erase(repeated.begin(), repeated.end());
 }
+
+namespace {
+
+/// From the foot on a face to that on the smooth surface with the normals of its corners: where p is right above, p − x = d n.
+void find_smooth_foot(const RigidSurface& surface, const NearestFace& near, const Vec3d& p, Foot& out) {
+  constexpr double kSingular = 1e-3;  // p is the centre of the curvature, and all points are as near
+  const auto& [n0, n1, n2] = surface.corner_normal[near.face];
+  const Triangle& corner = surface.topology->faces()[near.face];
+  const auto& x = surface.position;
+  const auto& w = near.closest.barycentric;
+  const Vec3d normal = normalized(n0 * w[0] + n1 * w[1] + n2 * w[2]), from = p - near.closest.point;
+  const Vec3d e1 = x[corner[1]] - x[corner[0]], e2 = x[corner[2]] - x[corner[0]], turn1 = n1 - n0, turn2 = n2 - n0;
+  // An arc over a chord e between normals that differ by dn is ½ w₁ w₂ dn·e high; in a triangle those of its edges add up (a paraboloid).
+  const double bulge = 0.5 * (w[0] * w[1] * dot(turn1, e1) + w[0] * w[2] * dot(turn2, e2) + w[1] * w[2] * dot(turn2 - turn1, e2 - e1));
+  const double height = dot(from, normal) - bulge;
+  const Vec3d aside = from - normal * dot(from, normal);
+  // One step of Newton's method along the surface, s e₁ + t e₂, on the way of which the normal turns: aside = s (e₁ + d dn₁) + t (e₂ + d dn₂).
+  const Vec3d a1 = e1 + turn1 * height, a2 = e2 + turn2 * height;
+  const double m11 = dot(a1, e1), m12 = dot(a2, e1), m21 = dot(a1, e2), m22 = dot(a2, e2), r1 = dot(aside, e1), r2 = dot(aside, e2);
+  const double det = m11 * m22 - m12 * m21;
+  out.normal = normal;
+  out.bulge = out.distance - height;
+  if (!(det > kSingular * norm2(cross(e1, e2)))) return;
+  const Vec3d turned = turn1 * ((r1 * m22 - r2 * m12) / det) + turn2 * ((r2 * m11 - r1 * m21) / det);
+  out.normal = normalized(normal + turned);
+  out.bulge -= 0.5 * dot(aside, turned);
+}
+
+}  // namespace
 
 std::optional<Foot> foot_on_part(const RigidSurface& surface, std::uint32_t part, const Vec3d& p, double cutoff) {
   const auto near = nearest_on_part(surface, part, p, cutoff);
@@ -122,11 +152,12 @@ std::optional<Foot> foot_on_part(const RigidSurface& surface, std::uint32_t part
   }
   const auto& at_corner = surface.curvature[near->face];
   const auto& weight = near->closest.barycentric;
-  Foot out{near->closest.point, distance, near->face, {}};
+  Foot out{near->closest.point, distance, near->face, {}, {}};
   for (std::size_t c = 0; c < 3; ++c) {
     out.curvature.mean += weight[c] * at_corner[c].mean;
     out.curvature.gaussian += weight[c] * at_corner[c].gaussian;
   }
+  find_smooth_foot(surface, *near, p, out);
   return out;
 }
 

@@ -35,6 +35,7 @@ struct RigidSurface {
   std::vector<SmoothPart> parts;                           ///< by their lowest face
   std::vector<std::uint32_t> part_of_face;                 ///< by face
   std::vector<std::array<SurfaceCurvature, 3>> curvature;  ///< of the smooth part, at the corners of each face
+  std::vector<std::array<Vec3d, 3>> corner_normal;         ///< likewise
   std::uint16_t material = 0;
   bool inside = false;  ///< cells live inside it
 };
@@ -102,6 +103,8 @@ struct Foot {
   double distance = 0.0;  ///< from p, < 0 where p lies behind the surface [µm]
   std::uint32_t face = 0;
   SurfaceCurvature curvature;
+  Vec3d normal;        ///< of the smooth surface that the faces stand for
+  double bulge = 0.0;  ///< how far that lies above the face there [µm]
 };
 
 /// The foot of p on one part of a surface, if a ball around p rests there: a smooth part bears a ball at its nearest point alone, however many

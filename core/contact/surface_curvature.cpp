@@ -64,4 +64,24 @@ std::vector<std::array<SurfaceCurvature, 3>> curvature_of_parts(const Topology& 
   return out;
 }
 
+std::vector<std::array<Vec3d, 3>> normals_of_parts(const Topology& topology, std::span<const Vec3d> position,
+                                                   const SurfaceGeometry& geometry, std::span<const std::uint32_t> part_of_face) {
+  const auto faces = topology.faces();
+  const auto at_node = [&](std::uint32_t node, std::uint32_t part) {
+    Vec3d sum;
+    for (const std::uint32_t face : topology.faces_of_node(node)) {
+      if (part_of_face[face] != part) continue;
+      const Triangle& t = faces[face];
+      const std::size_t corner = t[0] == node ? 0 : t[1] == node ? 1 : 2;
+      const Vec3d a = position[t[(corner + 1) % 3]] - position[node], b = position[t[(corner + 2) % 3]] - position[node];
+      sum += normalized(geometry.face_normal[face]) * (geometry.face_area[face] / (norm2(a) * norm2(b)));
+    }
+    return normalized(sum);
+  };
+  std::vector<std::array<Vec3d, 3>> out(topology.face_count());
+  for (std::uint32_t f = 0; f < topology.face_count(); ++f)
+    for (std::size_t corner = 0; corner < 3; ++corner) out[f][corner] = at_node(faces[f][corner], part_of_face[f]);
+  return out;
+}
+
 }  // namespace morula

@@ -13,6 +13,7 @@ namespace morula {
 struct SurfaceCurvature {
   double mean = 0.0;      ///< (κ₁ + κ₂)/2 [1/µm]
   double gaussian = 0.0;  ///< κ₁ κ₂ [1/µm²]
+  friend bool operator==(const SurfaceCurvature&, const SurfaceCurvature&) = default;
 };
 
 /// The curvature of the parts of a surface at the corners of each face; edges between two parts do not count.
@@ -23,5 +24,10 @@ struct SurfaceCurvature {
 std::vector<std::array<SurfaceCurvature, 3>> curvature_of_parts(const Topology& topology, std::span<const Vec3d> position,
                                                                 const SurfaceGeometry& geometry,
                                                                 std::span<const std::uint32_t> part_of_face);
+
+/// The normals of the parts of a surface at the corners of each face, of length 1: of the faces of its part around a node, with the weights A/(|a|² |b|²), a
+/// and b their edges there, which are exact where the nodes lie on a ball (Max 1999, J. Graphics Tools 4(2), 1–6).
+std::vector<std::array<Vec3d, 3>> normals_of_parts(const Topology& topology, std::span<const Vec3d> position,
+                                                   const SurfaceGeometry& geometry, std::span<const std::uint32_t> part_of_face);
 
 }  // namespace morula

@@ -113,13 +113,14 @@ void Mechanics::look(const Tissue& tissue) {
   (void)prepare(*work_, tissue);
   SphereContacts& spheres = *work_->terms.spheres;
   const World world = work_->world(tissue);
-  const bool curvature = spheres.renew_curvature(world), sisters = spheres.renew_sisters(world);
-  // The packing of sisters counts at their neighbours, too. The forces are those of a step from here on, whose sisters are the same.
-  const std::int64_t renewed = work_->setting.comm.max(std::int64_t{sisters ? 2 : curvature ? 1 : 0});
-  if (spheres.packs() && renewed == 2) {
+  using Renewed = SphereContacts::Renewed;
+  const Renewed supports = spheres.renew_supports(world), sisters = spheres.renew_sisters(world) ? Renewed::kPacking : Renewed::kNothing;
+  const auto renewed = static_cast<Renewed>(work_->setting.comm.max(static_cast<std::int64_t>(std::max(supports, sisters))));
+  // Packing counts at the neighbours, too. The forces are those of a step from here on, whose sisters are the same.
+  if (spheres.packs() && renewed == Renewed::kPacking) {
     Evaluation now = evaluate(*work_, tissue, {});
     work_->known = Known{now.energy, std::move(now.force)};
-  } else if (renewed > 0) {
+  } else if (renewed != Renewed::kNothing) {
     work_->known.reset();
   }
 }

@@ -21,9 +21,10 @@ double arm_of_b(const cbm::PairBlock& block, int lane) {
   return cbm::contact_arm(block.distance[lane], block.radius_b[lane], block.radius_a[lane]);
 }
 
+constexpr double kFlat = 1e-12;  // [1/µm], [1/µm²]
+
 /// Whether some smooth part of a surface is not flat.
 bool is_curved(const RigidSurface& surface) {
-  constexpr double kFlat = 1e-12;  // [1/µm], [1/µm²]
   return std::ranges::any_of(surface.curvature, [](const std::array<SurfaceCurvature, 3>& face) {
     return std::ranges::any_of(face, [](const SurfaceCurvature& c) { return std::abs(c.mean) > kFlat || std::abs(c.gaussian) > kFlat; });
   });
@@ -183,16 +184,29 @@ void SphereContacts::evaluate(const World& world, Forces& out) {
 bool SphereContacts::locate_rigid(const Scene& scene, RigidPair& pair) const {
   const ContactBody& body = scene.bodies()[scene.first_sphere() + pair.sphere];
   const auto& obstacle = layer().obstacles()[pair.obstacle];
-  const double reach = body.radius + layer().settings().sphere_reach + layer().settings().body_skin;
   const Vec3d center = scene.position()[body.first_point], from = center - (layer().obstacle_offset(pair.obstacle) + pair.image.shift);
+  const auto meet_plane = [&] {
+    pair.normal = -pair.support->normal;
+    pair.distance = pair.support->distance + dot(pair.support->normal, from - pair.support->from);
+    return true;
+  };
+  if (pair.support && pair.support->hollow && (friction_is_frozen_ || pair.support->from == from)) return meet_plane();
+  const double reach = body.radius + layer().settings().sphere_reach + layer().settings().body_skin;
   const auto foot = foot_on_part(obstacle, pair.part, from, reach);
-  if (!foot) return false;
+  if (!foot) {
+    if (!friction_is_frozen_) pair.support.reset();
+    return false;
+  }
+  // Kept over the step, as its friction is: the force is the gradient of the energy then.
+  if (!friction_is_frozen_ || !pair.support) {
+    pair.support = Support{foot->curvature};
+    if (foot->curvature.mean < -kFlat) pair.support = Support{foot->curvature, true, from, foot->normal, foot->distance - foot->bulge};
+  }
+  if (pair.support->hollow) return meet_plane();
   const Vec3d between = foot->point - from;
   const double distance = norm(between), side = foot->distance < 0.0 ? -1.0 : 1.0;
   pair.normal = distance > cbm::kCoincident ? between * (side / distance) : -obstacle.geometry.face_normal[foot->face];
   pair.distance = side * distance;
-  // Kept over the step, as its friction is: the force is the gradient of the energy then.
-  if (!friction_is_frozen_ || !pair.curvature) pair.curvature = foot->curvature;
   return true;
 }
 
@@ -221,7 +235,7 @@ void SphereContacts::evaluate_rigid(const Scene& scene, std::size_t k) {
   const auto& entry = table_.entry(body.material, material_of(pair));
   const cbm::PairContact contact = contact_with_obstacle(scene, pair);
   const auto [response, attached_next] =
-      contact.law->respond(contact, cbm::radius_on(body.radius, *pair.curvature), overlap, pair.attached);
+      contact.law->respond(contact, cbm::radius_on(body.radius, pair.support->curvature), overlap, pair.attached);
   pair.force = response.force;
   pair.energy = response.energy;
   pair.area = response.area;
@@ -283,18 +297,20 @@ void SphereContacts::refresh_values(const Scene& scene, const std::vector<char>&
   }
 }
 
-bool SphereContacts::renew_curvature(const World& world) {
+SphereContacts::Renewed SphereContacts::renew_supports(const World& world) {
   std::vector<char> marked;
+  bool moved = false;  // some are as far from their obstacle as they were not before, and packed otherwise
   for (RigidPair& pair : rigid_) {
-    if (!is_curved_[pair.obstacle] || !pair.curvature) continue;
-    const SurfaceCurvature before = *pair.curvature;
-    if (!locate_rigid(world.scene, pair) || (pair.curvature->mean == before.mean && pair.curvature->gaussian == before.gaussian)) continue;
+    if (!is_curved_[pair.obstacle] || !pair.support) continue;
+    const Support before = *pair.support;
+    if (locate_rigid(world.scene, pair) && *pair.support == before) continue;
     if (marked.empty()) marked.assign(world.scene.bodies().size() - world.scene.first_sphere(), 0);
     marked[pair.sphere] = 1;
+    moved = moved || before.hollow || !pair.support || pair.support->hollow;
   }
-  if (marked.empty()) return false;
+  if (marked.empty()) return Renewed::kNothing;
   refresh_values(world.scene, marked);
-  return true;
+  return moved ? Renewed::kPacking : Renewed::kValues;
 }
 
 void SphereContacts::end_step(const World& world, StepEnd& end) {

@@ -53,9 +53,11 @@ class SphereContacts : public Term {
   bool update_attached(const World& world, Tissue& tissue);
   /// The time has moved on: rest distances and pressures of young sisters anew. Returns whether any has changed.
   bool renew_sisters(const World& world);
-  /// Spheres have gone on along curved obstacles: the curvature where they are now, which is kept within a step, and pressures with it. Returns whether any
-  /// has changed.
-  bool renew_curvature(const World& world);
+  /// What is found anew when a step has ended.
+  enum class Renewed { kNothing, kValues, kPacking };
+  /// Spheres have gone on along curved obstacles: how these bear them where they are now, which is kept within a step, and pressures with it. Says what has
+  /// changed.
+  Renewed renew_supports(const World& world);
   /// Σ_k (x_i − x_k)·f_k over the contacts of owned sphere i with spheres and obstacles [nN·µm].
   [[nodiscard]] double virial(std::size_t i) const { return virial_[i]; }
   /// What spheres and obstacles do to a sphere.
@@ -95,13 +97,22 @@ class SphereContacts : public Term {
     double birth_radius_a, birth_radius_b, birth_time;
     double offset = 0.0;  ///< the law sees δ − offset [µm]
   };
+  /// How an obstacle bears a sphere.
+  struct Support {
+    SurfaceCurvature curvature;
+    bool hollow =
+        false;  ///< seen as the plane that touches its smooth surface there: the nearest points of its faces jump from one to the next
+    Vec3d from{}, normal{};  ///< of a hollow one: the centre of the sphere then, as the obstacle sees it [µm], and the normal of the plane
+    double distance = 0.0;   ///< of a hollow one: of that centre from the plane [µm]
+    friend bool operator==(const Support&, const Support&) = default;
+  };
   /// An owned sphere near a smooth part of an obstacle. A sphere adheres to an obstacle as a whole: the pairs of both share the flag.
   struct RigidPair {
     std::uint32_t sphere, obstacle, part;
     SurfaceImage image{};  ///< of the obstacle
     bool attached = false, attached_next = false;
     Vec3d normal{};
-    std::optional<SurfaceCurvature> curvature;  ///< of the obstacle where the sphere touched it at the start of the step, or came to it
+    std::optional<Support> support;  ///< where the sphere touched the obstacle at the start of the step, or came to it
     double distance = 0.0, force = 0.0, energy = 0.0, area = 0.0;
     [[nodiscard]] bool same_bodies(const RigidPair& other) const { return sphere == other.sphere && obstacle == other.obstacle; }
   };

@@ -155,7 +155,7 @@ void SphereContacts::find_rigid_pairs(const Scene& scene, const Tissue& tissue) 
   for (std::size_t n = 0; n < old.size(); ++n) {
     const auto now = std::lower_bound(rigid_.begin(), rigid_.end(), old[n], before);
     if (now == rigid_.end() || before(old[n], *now)) continue;
-    now->curvature = old[n].curvature;
+    now->support = old[n].support;
     if (rubs(old_elements[n])) list_.rigid[static_cast<std::size_t>(now - rigid_.begin())] = old_elements[n];
   }
 }

@@ -3,7 +3,9 @@
 
 #include <cmath>
 
+#include "core/contact/rigid_surface.h"
 #include "core/mesh/primitives.h"
+#include "core/random/philox.h"
 #include "tests/coupling/tissue_fixture.h"
 
 namespace morula {
@@ -134,6 +136,20 @@ TEST(SphereObstacle, AdheresToACornerAsToOneObstacle) {
   }
   EXPECT_GT(tissue.spheres.position[0].x, 24.1);
   EXPECT_NEAR(tissue.spheres.position[0].x, tissue.spheres.position[0].y, 1e-2);  // the same rest at both walls
+}
+
+/// The faces of a mould stand for a ball: it is met where that is, towards its middle, from anywhere within (decision 0087). The faces turn by 5° from one to
+/// the next, and lie up to 0.03 µm within it.
+TEST(SphereObstacle, SeesTheSmoothSurfaceThatTheFacesOfAMouldStandFor) {
+  const auto surfaces = contact_obstacles(model_with(make_sphere(20.0, 3).value(), true)).value();
+  const Random random(5, RandomStream::kInitialPosition);
+  for (std::uint64_t k = 0; k < 300; ++k) {
+    const Vec3d out = random.direction(CellId(1), k), p = out * 14.0;
+    const auto foot = foot_on_part(surfaces[0], 0, p, 10.0);
+    ASSERT_TRUE(foot.has_value());
+    EXPECT_LT(norm(foot->normal + out), 2e-3) << k;
+    EXPECT_NEAR(foot->distance - foot->bulge, 6.0, 1e-3) << k;
+  }
 }
 
 }  // namespace
