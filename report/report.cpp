@@ -207,9 +207,10 @@ void add_exchanges(std::string& out, const ReportContent& content) {
   std::vector<Row> rows;
   const auto both = [](double largest, double mean) { return short_number(largest) + ", " + short_number(mean); };
   for (const ReportExchanges& e : content.exchanges)
-    rows.push_back({{e.kind, std::to_string(e.count), short_number(e.room) + " µm³", short_number(e.largest_own_way) + " R",
-                     both(e.largest_force, e.mean_force) + " nN",
-                     e.settled > 0 ? both(e.largest_way, e.mean_way) + " R (" + std::to_string(e.settled) + ")" : "–"}});
+    rows.push_back(
+        {{e.kind, std::to_string(e.count), short_number(e.room) + " µm³", e.measured > 0 ? short_number(e.largest_own_way) + " R" : "–",
+          e.measured > 0 ? both(e.largest_force, e.mean_force) + " nN" : "–",
+          e.settled > 0 ? both(e.largest_way, e.mean_way) + " R (" + std::to_string(e.settled) + ")" : "–"}});
   add_table(out,
             {"exchange", "count", "room in all", "largest jump", "force on a neighbour: largest, mean",
              "way of a neighbour: largest, mean (of how many)"},

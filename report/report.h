@@ -39,7 +39,7 @@ struct ReportExchanges {
   std::size_t count = 0;
   double room = 0.0;                             ///< of all [µm³]
   double largest_force = 0.0, mean_force = 0.0;  ///< change of the force on a neighbour [nN]
-  std::size_t measured = 0;                      ///< of how many the forces are known
+  std::size_t measured = 0;                      ///< of how many the forces and jumps are known
   double largest_own_way = 0.0;                  ///< of the cell itself, at once [R]
   std::size_t settled = 0;                       ///< of how many the ways of neighbours are known
   double largest_way = 0.0, mean_way = 0.0;      ///< of a neighbour [R]

@@ -248,7 +248,8 @@ void add_exchange(const Event& event, Json& json) {
   if (event.kind == EventKind::kExchangeSettled) {
     json["largest_way_R"] = number(effect.largest_way), json["mean_way_R"] = number(effect.mean_way);
   } else {
-    json["cell_volume_um3"] = number(effect.volume), json["own_way_R"] = number(effect.own_way);
+    json["cell_volume_um3"] = number(effect.volume);
+    if (effect.neighbours > 0) json["own_way_R"] = number(effect.own_way);  // nobody is looked at before the first step
     json["largest_force_nN"] = number(effect.largest_force), json["mean_force_nN"] = number(effect.mean_force);
   }
 }
