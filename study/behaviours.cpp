@@ -1,6 +1,7 @@
 // Behaviours of the registry in the study: their keys, and what they make of them.
 #include <algorithm>
 
+#include "core/numbers/joined.h"
 #include "coupling/behaviours/behaviour.h"
 #include "study/declare.h"
 #include "study/own_section.h"
@@ -22,12 +23,6 @@ std::vector<std::string> sections_of(const Laws& laws) {
   std::vector<std::string> out;
   for (const auto& one : laws.behaviours)
     if (std::ranges::find(out, one->section.name) == out.end()) out.emplace_back(one->section.name);
-  return out;
-}
-
-std::string listed(const std::vector<std::string>& names) {
-  std::string out;
-  for (const std::string& name : names) out += (out.empty() ? "`" : ", `") + name + "`";
   return out;
 }
 

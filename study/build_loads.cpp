@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "core/numbers/joined.h"
 #include "coupling/loads/load.h"
 #include "study/own_section.h"
 
@@ -76,9 +77,7 @@ std::vector<std::shared_ptr<const Load>> kinds_of(const BuildContext& c, const d
 }
 
 std::string all_kinds(const Laws& laws) {
-  std::string out;
-  for (const auto& kind : laws.loads) out += (out.empty() ? "`" : ", `") + std::string(kind->section.name) + "`";
-  return out;
+  return listed(laws.loads, [](const auto& kind) { return kind->section.name; });
 }
 
 /// What the study says of the kind of a load; false where it could not be read.

@@ -81,11 +81,7 @@ std::string difference(const Node& here, const Node& there, const std::string& p
   return "";
 }
 
-std::string names_of(const Model& model) {
-  std::string out;
-  for (const CellType& type : model.types) out += (out.empty() ? "`" : ", `") + type.name + "`";
-  return out;
-}
+std::string names_of(const Model& model) { return listed(model.types, &CellType::name); }
 
 }  // namespace
 

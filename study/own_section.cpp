@@ -278,10 +278,7 @@ bool check_choice(BuildContext& c, const std::vector<OwnKey>& chosen, const std:
       tell_without_effect(c, key.spec.name, own, "it has none with `" + word.value + "`");
     }
   const std::vector<std::string> missing = missing_keys(chosen, own);
-  if (!missing.empty())
-    c.diagnostics.error(103, word.place,
-                        "`" + word.value + "` needs " + joined(missing, [](const std::string& name) { return "`" + name + "`"; }),
-                        example_of(chosen, missing));
+  if (!missing.empty()) c.diagnostics.error(103, word.place, "`" + word.value + "` needs " + listed(missing), example_of(chosen, missing));
   return missing.empty();
 }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "core/numbers/joined.h"
 #include "core/numbers/unit_conversion.h"
 #include "coupling/observables/observable.h"
 #include "study/catalogue.h"
@@ -16,8 +17,7 @@ bool is_section(const Declaration& d) { return d.kind == Kind::kGroup || d.kind 
 
 std::string kind_text(const Declaration& d) {
   const KeySpec& key = d.spec;
-  std::string words;
-  for (const std::string& word : key.words) words += (words.empty() ? "`" : ", `") + word + "`";
+  std::string words = listed(key.words);
   for (const Special& special : key.specials) words += (words.empty() ? "" : ", ") + std::string("`") + special.word + "`";
   const std::string quantity(describe(key.quantity).name);
   switch (d.kind) {

@@ -26,8 +26,7 @@ Vec3d pseudonormal(const PairBody& target, std::uint32_t face, const double (&mu
   Vec3d sum;
   for (const std::uint32_t f : topology.faces_of_node(node)) {
     const Triangle& t = topology.faces()[f];
-    const int c = t[0] == node ? 0 : t[1] == node ? 1 : 2;
-    sum += target.face_normal(f) * corner_angle(t, c, target.position);
+    sum += target.face_normal(f) * corner_angle(t, corner_of(t, node), target.position);
   }
   return sum;
 }

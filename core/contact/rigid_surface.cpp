@@ -157,7 +157,7 @@ std::optional<Foot> foot_on_part(const RigidSurface& surface, std::uint32_t part
     out.curvature.mean += weight[c] * at_corner[c].mean;
     out.curvature.gaussian += weight[c] * at_corner[c].gaussian;
   }
-  find_smooth_foot(surface, *near, p, out);
+  if (out.curvature.mean < 0.0) find_smooth_foot(surface, *near, p, out);
   return out;
 }
 

@@ -103,8 +103,8 @@ struct Foot {
   double distance = 0.0;  ///< from p, < 0 where p lies behind the surface [µm]
   std::uint32_t face = 0;
   SurfaceCurvature curvature;
-  Vec3d normal;        ///< of the smooth surface that the faces stand for
-  double bulge = 0.0;  ///< how far that lies above the face there [µm]
+  Vec3d normal;        ///< where the part is hollow: of the smooth surface that the faces stand for
+  double bulge = 0.0;  ///< where the part is hollow: how far that surface lies above the face [µm]
 };
 
 /// The foot of p on one part of a surface, if a ball around p rests there: a smooth part bears a ball at its nearest point alone, however many

@@ -33,6 +33,15 @@ std::vector<double> turned_by_face(const Topology& topology, std::span<const Vec
   return out;
 }
 
+/// at_node(node, part) at the corners of each face.
+template <class AtNode>
+auto at_corners(const Topology& topology, std::span<const std::uint32_t> part_of_face, AtNode&& at_node) {
+  std::vector<std::array<decltype(at_node(0u, 0u)), 3>> out(topology.face_count());
+  for (std::uint32_t f = 0; f < topology.face_count(); ++f)
+    for (std::size_t corner = 0; corner < 3; ++corner) out[f][corner] = at_node(topology.faces()[f][corner], part_of_face[f]);
+  return out;
+}
+
 }  // namespace
 
 std::vector<std::array<SurfaceCurvature, 3>> curvature_of_parts(const Topology& topology, std::span<const Vec3d> position,
@@ -49,7 +58,7 @@ std::vector<std::array<SurfaceCurvature, 3>> curvature_of_parts(const Topology& 
         continue;
       }
       const Triangle& t = faces[face];
-      const int corner = t[0] == node ? 0 : t[1] == node ? 1 : 2;
+      const int corner = corner_of(t, node);
       sum += turned[face];
       area += geometry.face_area[face];
       lack -= corner_angle(t, corner, position);
@@ -58,10 +67,7 @@ std::vector<std::array<SurfaceCurvature, 3>> curvature_of_parts(const Topology& 
     if (sum == 0.0) return {};
     return {sum / area, rim ? 0.0 : lack / voronoi};
   };
-  std::vector<std::array<SurfaceCurvature, 3>> out(topology.face_count());
-  for (std::uint32_t f = 0; f < topology.face_count(); ++f)
-    for (std::size_t corner = 0; corner < 3; ++corner) out[f][corner] = at_node(faces[f][corner], part_of_face[f]);
-  return out;
+  return at_corners(topology, part_of_face, at_node);
 }
 
 std::vector<std::array<Vec3d, 3>> normals_of_parts(const Topology& topology, std::span<const Vec3d> position,
@@ -72,16 +78,13 @@ std::vector<std::array<Vec3d, 3>> normals_of_parts(const Topology& topology, std
     for (const std::uint32_t face : topology.faces_of_node(node)) {
       if (part_of_face[face] != part) continue;
       const Triangle& t = faces[face];
-      const std::size_t corner = t[0] == node ? 0 : t[1] == node ? 1 : 2;
+      const auto corner = static_cast<std::size_t>(corner_of(t, node));
       const Vec3d a = position[t[(corner + 1) % 3]] - position[node], b = position[t[(corner + 2) % 3]] - position[node];
-      sum += normalized(geometry.face_normal[face]) * (geometry.face_area[face] / (norm2(a) * norm2(b)));
+      sum += geometry.face_normal[face] * (geometry.face_area[face] / (norm2(a) * norm2(b)));
     }
     return normalized(sum);
   };
-  std::vector<std::array<Vec3d, 3>> out(topology.face_count());
-  for (std::uint32_t f = 0; f < topology.face_count(); ++f)
-    for (std::size_t corner = 0; corner < 3; ++corner) out[f][corner] = at_node(faces[f][corner], part_of_face[f]);
-  return out;
+  return at_corners(topology, part_of_face, at_node);
 }
 
 }  // namespace morula

@@ -12,6 +12,9 @@ Vec3d unit_face_normal(const Triangle& face, std::span<const Vec3d> position);
 /// Angle of a face at its corner 0, 1 or 2 [rad]; zero where an edge has no length.
 double corner_angle(const Triangle& face, int corner, std::span<const Vec3d> position);
 
+/// Which corner of a face this node of it is: 0, 1 or 2.
+inline int corner_of(const Triangle& face, std::uint32_t node) { return face[0] == node ? 0 : face[1] == node ? 1 : 2; }
+
 /// Angle by which a surface turns across an edge, from its left face to its right one along its direction: 0 flat, > 0 convex [rad]. Normals of any lengths.
 double turning_angle(const Vec3d& left_normal, const Vec3d& right_normal, const Vec3d& along);
 

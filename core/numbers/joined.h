@@ -18,4 +18,10 @@ std::string joined(Items&& items, As as = {}, std::string_view between = ", ") {
   return out;
 }
 
+/// Names as messages have them: "`a`, `b`"; `as` makes them of the items.
+template <class Items, class As = std::identity>
+std::string listed(Items&& items, As as = {}) {
+  return joined(items, [&](const auto& item) { return "`" + std::string(std::invoke(as, item)) + "`"; });
+}
+
 }  // namespace morula

@@ -114,7 +114,7 @@ void Mechanics::look(const Tissue& tissue) {
   SphereContacts& spheres = *work_->terms.spheres;
   const World world = work_->world(tissue);
   using Renewed = SphereContacts::Renewed;
-  const Renewed supports = spheres.renew_supports(world), sisters = spheres.renew_sisters(world) ? Renewed::kPacking : Renewed::kNothing;
+  const Renewed supports = spheres.renew_supports(world), sisters = spheres.renew_sisters(world);
   const auto renewed = static_cast<Renewed>(work_->setting.comm.max(static_cast<std::int64_t>(std::max(supports, sisters))));
   // Packing counts at the neighbours, too. The forces are those of a step from here on, whose sisters are the same.
   if (spheres.packs() && renewed == Renewed::kPacking) {

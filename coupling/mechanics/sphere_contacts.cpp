@@ -21,15 +21,6 @@ double arm_of_b(const cbm::PairBlock& block, int lane) {
   return cbm::contact_arm(block.distance[lane], block.radius_b[lane], block.radius_a[lane]);
 }
 
-constexpr double kFlat = 1e-12;  // [1/µm], [1/µm²]
-
-/// Whether some smooth part of a surface is not flat.
-bool is_curved(const RigidSurface& surface) {
-  return std::ranges::any_of(surface.curvature, [](const std::array<SurfaceCurvature, 3>& face) {
-    return std::ranges::any_of(face, [](const SurfaceCurvature& c) { return std::abs(c.mean) > kFlat || std::abs(c.gaussian) > kFlat; });
-  });
-}
-
 }  // namespace
 
 SphereContacts::SphereContacts(const Model& model, SurfaceContacts& surfaces)
@@ -43,7 +34,7 @@ SphereContacts::SphereContacts(const Model& model, SurfaceContacts& surfaces)
     }
   list_.set_friction(std::move(friction), table_.type_count());
   for (const CellType& type : model_.types) packing_.acts = packing_.acts || !type.sphere.packing.empty();
-  for (const RigidSurface& obstacle : layer().obstacles()) is_curved_.push_back(is_curved(obstacle));
+  note_curved_obstacles();
 }
 
 template <class Wanted, class Sink, class FarAway>
@@ -181,80 +172,9 @@ void SphereContacts::evaluate(const World& world, Forces& out) {
   }
 }
 
-bool SphereContacts::locate_rigid(const Scene& scene, RigidPair& pair) const {
-  const ContactBody& body = scene.bodies()[scene.first_sphere() + pair.sphere];
-  const auto& obstacle = layer().obstacles()[pair.obstacle];
-  const Vec3d center = scene.position()[body.first_point], from = center - (layer().obstacle_offset(pair.obstacle) + pair.image.shift);
-  const auto meet_plane = [&] {
-    pair.normal = -pair.support->normal;
-    pair.distance = pair.support->distance + dot(pair.support->normal, from - pair.support->from);
-    return true;
-  };
-  if (pair.support && pair.support->hollow && (friction_is_frozen_ || pair.support->from == from)) return meet_plane();
-  const double reach = body.radius + layer().settings().sphere_reach + layer().settings().body_skin;
-  const auto foot = foot_on_part(obstacle, pair.part, from, reach);
-  if (!foot) {
-    if (!friction_is_frozen_) pair.support.reset();
-    return false;
-  }
-  // Kept over the step, as its friction is: the force is the gradient of the energy then.
-  if (!friction_is_frozen_ || !pair.support) {
-    pair.support = Support{foot->curvature};
-    if (foot->curvature.mean < -kFlat) pair.support = Support{foot->curvature, true, from, foot->normal, foot->distance - foot->bulge};
-  }
-  if (pair.support->hollow) return meet_plane();
-  const Vec3d between = foot->point - from;
-  const double distance = norm(between), side = foot->distance < 0.0 ? -1.0 : 1.0;
-  pair.normal = distance > cbm::kCoincident ? between * (side / distance) : -obstacle.geometry.face_normal[foot->face];
-  pair.distance = side * distance;
-  return true;
-}
-
-std::size_t SphereContacts::material_of(const RigidPair& pair) const {
-  return std::min<std::size_t>(model_.types.size() + pair.obstacle, table_.material_count() - 1);
-}
-
-cbm::PairContact SphereContacts::contact_with_obstacle(const Scene& scene, const RigidPair& pair) const {
-  const std::size_t number = scene.first_sphere() + pair.sphere;
-  const ContactBody& body = scene.bodies()[number];
-  OwnContacts own(model_, table_, layer().own_factors());
-  return own.vary() ? own.with_obstacle(body, number, material_of(pair)) : table_.entry(body.material, material_of(pair)).contact;
-}
-
-void SphereContacts::evaluate_rigid(const Scene& scene, std::size_t k) {
-  RigidPair& pair = rigid_[k];
-  RigidPairElement& element = list_.rigid[k];
-  const ContactBody& body = scene.bodies()[scene.first_sphere() + pair.sphere];
-  const bool rubs = friction_is_frozen_ && (element.isotropic != 0.0f || element.axial != 0.0f);
-  element.stiffness = 0.0f;
-  if (!rubs) element.isotropic = element.axial = 0.0f;
-  pair.force = pair.energy = pair.area = pair.distance = 0.0;
-  pair.attached_next = false;
-  if (!locate_rigid(scene, pair)) return;
-  const double overlap = body.radius - pair.distance;
-  const auto& entry = table_.entry(body.material, material_of(pair));
-  const cbm::PairContact contact = contact_with_obstacle(scene, pair);
-  const auto [response, attached_next] =
-      contact.law->respond(contact, cbm::radius_on(body.radius, pair.support->curvature), overlap, pair.attached);
-  pair.force = response.force;
-  pair.energy = response.energy;
-  pair.area = response.area;
-  pair.attached_next = attached_next;
-  element.stiffness = static_cast<float>(response.stiffness);
-  if (packing_.acts && overlap > 0.0) {  // the wall takes a cap of the sphere; its energy is the sphere's
-    const cbm::PlaneCap cap = cbm::plane_cap(body.radius, overlap);
-    const SpherePressure& pressed = packing_.on_surfaces[scene.first_sphere() + pair.sphere];
-    const double bending = 2.0 * std::numbers::pi * std::max(0.0, pair.distance);
-    pair.force += pressed.pressure * cap.slope;
-    element.stiffness += static_cast<float>(cap.slope * pressed.resistance + bending * pressed.pressure);
-  }
-  if (rubs) return;
-  element.n[0] = static_cast<float>(pair.normal.x);
-  element.n[1] = static_cast<float>(pair.normal.y);
-  element.n[2] = static_cast<float>(pair.normal.z);
-  if (friction_is_frozen_) return;
-  element.isotropic = static_cast<float>(response.area * entry.tangential_friction);
-  element.axial = static_cast<float>(response.area * (entry.normal_friction - entry.tangential_friction));
+void SphereContacts::mark(std::vector<char>& marked, const Scene& scene, std::uint32_t sphere) {
+  if (marked.empty()) marked.assign(scene.bodies().size() - scene.first_sphere(), 0);
+  marked[sphere] = 1;
 }
 
 SpherePairs::Share SphereContacts::marked_part(const SpherePairs::Share& share, const std::vector<char>& marked) const {
@@ -297,22 +217,6 @@ void SphereContacts::refresh_values(const Scene& scene, const std::vector<char>&
   }
 }
 
-SphereContacts::Renewed SphereContacts::renew_supports(const World& world) {
-  std::vector<char> marked;
-  bool moved = false;  // some are as far from their obstacle as they were not before, and packed otherwise
-  for (RigidPair& pair : rigid_) {
-    if (!is_curved_[pair.obstacle] || !pair.support) continue;
-    const Support before = *pair.support;
-    if (locate_rigid(world.scene, pair) && *pair.support == before) continue;
-    if (marked.empty()) marked.assign(world.scene.bodies().size() - world.scene.first_sphere(), 0);
-    marked[pair.sphere] = 1;
-    moved = moved || before.hollow || !pair.support || pair.support->hollow;
-  }
-  if (marked.empty()) return Renewed::kNothing;
-  refresh_values(world.scene, marked);
-  return moved ? Renewed::kPacking : Renewed::kValues;
-}
-
 void SphereContacts::end_step(const World& world, StepEnd& end) {
   if (end.clock_runs) update_attached(world, end.tissue);
   young_.clear();
@@ -322,10 +226,7 @@ void SphereContacts::end_step(const World& world, StepEnd& end) {
 bool SphereContacts::update_attached(const World& world, Tissue& tissue) {
   const Scene& scene = world.scene;
   std::vector<char> marked;
-  const auto mark = [&](std::uint32_t i) {
-    if (marked.empty()) marked.assign(scene.bodies().size() - scene.first_sphere(), 0);
-    marked[i] = 1;
-  };
+  const auto mark = [&](std::uint32_t i) { SphereContacts::mark(marked, scene, i); };
   for (auto& flips : flips_) {
     for (const std::uint32_t k : flips) {
       SpherePair& pair = list_.pairs[k];

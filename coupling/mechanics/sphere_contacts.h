@@ -51,12 +51,11 @@ class SphereContacts : public Term {
   [[nodiscard]] std::vector<Vec3d> obstacle_ways() const { return layer().obstacle_ways(); }
   /// Flags at the present positions, into the tissue; pressures follow. Returns whether any flag of this rank has changed.
   bool update_attached(const World& world, Tissue& tissue);
-  /// The time has moved on: rest distances and pressures of young sisters anew. Returns whether any has changed.
-  bool renew_sisters(const World& world);
-  /// What is found anew when a step has ended.
+  /// What is found anew when a step has ended: values of spheres alone, or their packing and so those of their neighbours, too.
   enum class Renewed { kNothing, kValues, kPacking };
-  /// Spheres have gone on along curved obstacles: how these bear them where they are now, which is kept within a step, and pressures with it. Says what has
-  /// changed.
+  /// The time has moved on: rest distances and pressures of young sisters anew.
+  Renewed renew_sisters(const World& world);
+  /// Spheres have gone on along curved obstacles: how these bear them where they are now, which is kept within a step, and pressures with it.
   Renewed renew_supports(const World& world);
   /// Σ_k (x_i − x_k)·f_k over the contacts of owned sphere i with spheres and obstacles [nN·µm].
   [[nodiscard]] double virial(std::size_t i) const { return virial_[i]; }
@@ -97,13 +96,16 @@ class SphereContacts : public Term {
     double birth_radius_a, birth_radius_b, birth_time;
     double offset = 0.0;  ///< the law sees δ − offset [µm]
   };
+  /// The plane that touches the smooth surface of a hollow part where a sphere is: the nearest points of its faces jump from one to the next (decision 0087).
+  struct TouchingPlane {
+    Vec3d from, normal;  ///< the centre of the sphere then, as the obstacle sees it [µm]; of length 1
+    double distance;     ///< of that centre from the plane [µm]
+    friend bool operator==(const TouchingPlane&, const TouchingPlane&) = default;
+  };
   /// How an obstacle bears a sphere.
   struct Support {
     SurfaceCurvature curvature;
-    bool hollow =
-        false;  ///< seen as the plane that touches its smooth surface there: the nearest points of its faces jump from one to the next
-    Vec3d from{}, normal{};  ///< of a hollow one: the centre of the sphere then, as the obstacle sees it [µm], and the normal of the plane
-    double distance = 0.0;   ///< of a hollow one: of that centre from the plane [µm]
+    std::optional<TouchingPlane> plane;  ///< of a hollow part
     friend bool operator==(const Support&, const Support&) = default;
   };
   /// An owned sphere near a smooth part of an obstacle. A sphere adheres to an obstacle as a whole: the pairs of both share the flag.
@@ -172,6 +174,9 @@ class SphereContacts : public Term {
   /// That of the obstacle, or of a wall of the domain.
   [[nodiscard]] std::size_t material_of(const RigidPair& pair) const;
   [[nodiscard]] cbm::PairContact contact_with_obstacle(const Scene& scene, const RigidPair& pair) const;
+  void note_curved_obstacles();
+  /// Marks a sphere, by its number among all of the scene; there are no marks before the first.
+  static void mark(std::vector<char>& marked, const Scene& scene, std::uint32_t sphere);
   /// Pressures of the marked spheres anew, without touching forces.
   void refresh_values(const Scene& scene, const std::vector<char>& marked);
   /// function(owned sphere, partner) for all that are attached.

@@ -66,20 +66,20 @@ void SphereContacts::update_sisters(const Scene& scene, double now) {
   }
 }
 
-bool SphereContacts::renew_sisters(const World& world) {
-  if (sisters_.empty()) return false;
+SphereContacts::Renewed SphereContacts::renew_sisters(const World& world) {
+  if (sisters_.empty()) return Renewed::kNothing;
   const Scene& scene = world.scene;
   const std::vector<Sisters> before = sisters_;
   update_sisters(scene, world.tissue.clock.time);
   std::vector<char> marked;
   for (std::size_t s = 0; s < sisters_.size(); ++s) {
     if (sisters_[s].offset == before[s].offset) continue;
-    if (marked.empty()) marked.assign(scene.bodies().size() - scene.first_sphere(), 0);
-    marked[list_.pairs[sisters_[s].pair].a] = marked[list_.pairs[sisters_[s].pair].b] = 1;
+    const SpherePair& pair = list_.pairs[sisters_[s].pair];
+    for (const std::uint32_t i : {pair.a, std::uint32_t{pair.b}}) mark(marked, scene, i);
   }
-  if (marked.empty()) return false;
+  if (marked.empty()) return Renewed::kNothing;
   refresh_values(scene, marked);
-  return true;
+  return Renewed::kPacking;
 }
 
 }  // namespace morula

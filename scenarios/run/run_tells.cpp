@@ -116,7 +116,7 @@ void RunLoop::tell_open_cavities(const Measures& m) {
   warn_near_limit(kCavityOpen, "open at " + time_text(m.time) +
                                    ", and no cavity any more: " + joined(open, [](const std::string& name) { return "'" + name + "'"; }) +
                                    ". More than half of the directions from the centre meet no wall, and the fluid presses nothing (" +
-                                   joined(open, [](const std::string& name) { return "`open_" + name + "`"; }) + " in series.csv)");
+                                   listed(open, [](const std::string& name) { return "open_" + name; }) + " in series.csv)");
 }
 
 void RunLoop::tell_creeping(const StepOutcome& outcome) {

@@ -86,12 +86,17 @@ Vec3d sum_of(const std::vector<Vec3d>& force) {
   return out;
 }
 
+Protrusion pushing(double force, double angle) {
+  Protrusion law;
+  law.force = force;
+  law.angle = angle;
+  return law;
+}
+
 TEST(Protrusion, IsBorneByTheFrontAndAnInternalOneHasNoSum) {
   ShapeLibrary shapes;
   const auto shape = shapes.icosphere(642).value();
-  Protrusion law;
-  law.force = 2.0;
-  law.angle = 0.7;
+  Protrusion law = pushing(2.0, 0.7);
   const Vec3d p = normalized(Vec3d{1, 2, 3});
   std::vector<Vec3d> force(642);
   ASSERT_TRUE(add_protrusion(law, *shape->topology, shape->position, p, {}, p, law.force, force));
@@ -110,9 +115,7 @@ TEST(Protrusion, IsBorneByTheFrontAndAnInternalOneHasNoSum) {
 TEST(Protrusion, OfARoundCellIsBorneByTheFrontOfItsContact) {
   ShapeLibrary shapes;
   const auto shape = shapes.icosphere(642).value();
-  Protrusion law;
-  law.force = 2.0;
-  law.angle = 0.7;
+  Protrusion law = pushing(2.0, 0.7);
   std::vector<char> touches(642, 0);
   for (std::size_t i = 0; i < touches.size(); ++i) touches[i] = normalized(shape->position[i]).z < -0.9;
   const Vec3d ahead = normalized(Vec3d{1, 2, 0});
@@ -138,9 +141,7 @@ TEST(Protrusion, IsTheSameInAllDirectionsOfARoughCell) {
   std::vector<Vec3d> x;
   for (const Vec3d& place : shape->position)
     x.push_back(Vec3d{1.2 * place.x, place.y, 0.8 * place.z} * 9.0 + random.direction(CellId(1), draw++) * 0.3);
-  Protrusion law;
-  law.force = 2.0;
-  law.angle = 0.7;
+  Protrusion law = pushing(2.0, 0.7);
   for (int trial = 0; trial < 50; ++trial) {
     const Vec3d p = random.direction(CellId(2), draw++), axis = random.direction(CellId(3), draw++);
     const auto turn = [&](const Vec3d& v) {  // by 1 rad about the axis

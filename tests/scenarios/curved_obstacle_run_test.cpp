@@ -1,7 +1,6 @@
 /// Spheres on obstacles that are curved: studies, and Hertz's overlap read back.
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -70,26 +69,23 @@ TEST(CurvedObstacles, ThatAreHollowBearSpheresOverMoreOfThem) {
 
 /// What presses a sphere into a mould, the mould bears along the same line, wherever the nodes and faces are that stand for it.
 TEST(CurvedObstacles, ThatAreHollowBearForcesWithoutABend) {
-  for (const auto& [x, y, z] : {std::array{0.0, 0.0, 0.5}, {0.3, 0.4, 0.0}, {0.1, -0.25, 0.42}, {-0.3, 0.02, -0.4}}) {
-    const double force = std::hypot(x, y, z);
-    const auto vector = [&](double length, const char* unit) {
-      const auto part = [&](double v) { return std::to_string(length * v / force) + " " + unit; };
-      return "[" + part(x) + ", " + part(y) + ", " + part(z) + "]";
-    };
+  for (const Vec3d& load : {Vec3d{0.0, 0.0, 0.5}, {0.3, 0.4, 0.0}, {0.1, -0.25, 0.42}, {-0.3, 0.02, -0.4}}) {
+    const double force = norm(load);
     const test::Folder folder;
     const auto study = test::read(
         "schema: 1\nstudy: mould\ntime: {end: 4 h, output: 2 h}\ndomain: {size: [200 um, 200 um, 200 um]}\n"
         "cell_types: {a: {adhesion: {others: 0 mN/m}, friction: {obstacle: 1e9 N s/m^3}}}\n"
         "geometry: {w: {sphere: {radius: 20 um}, side: inside}}\ninitial: [{type: a, at: [" +
-        vector(13.9, "um") + "]}]\nloads: {f: {type: a, body_force: " + vector(force, "nN") + "}}\noutput: {report: false}\n");
+        test::place_text(load * (13.9 / force)) + "]}]\nloads: {f: {type: a, body_force: " + test::place_text(load, "nN") +
+        "}}\noutput: {report: false}\n");
     ASSERT_TRUE(study.ok()) << study.error().text();
     ASSERT_TRUE(test::run_into(folder.path() / "run", *study));
     const auto series = read_series(folder.path() / "run/series.csv");
     ASSERT_TRUE(series.ok());
     const auto told = [&](const std::string& name) { return series->find(name)->values.back(); };
-    EXPECT_NEAR(told("force_x_w"), x, 0.002 * force);
-    EXPECT_NEAR(told("force_y_w"), y, 0.002 * force);
-    EXPECT_NEAR(told("force_z_w"), z, 0.002 * force);
+    EXPECT_NEAR(told("force_x_w"), load.x, 0.002 * force);
+    EXPECT_NEAR(told("force_y_w"), load.y, 0.002 * force);
+    EXPECT_NEAR(told("force_z_w"), load.z, 0.002 * force);
   }
 }
 

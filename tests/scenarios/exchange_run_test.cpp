@@ -298,6 +298,8 @@ TEST(ExchangeRun, SaysThatCellsGoToAndFro) {
   }
   EXPECT_EQ(warnings, 1);
   EXPECT_TRUE(std::ranges::is_sorted(**events, {}, &EventLine::time));
+  EXPECT_TRUE(std::ranges::any_of(**events, [](const EventLine& event) { return event.exchange && event.exchange->own_way > 1e-4; }))
+      << "how far a cell itself went is told";
   EXPECT_TRUE(std::ranges::any_of(promotions, [](const auto& one) { return one.second >= 4; }));
 }
 

@@ -36,9 +36,9 @@ inline std::vector<Moment> snapshots_of_run(const std::string& text) {
   return out;
 }
 
-/// A place as studies write it [µm].
-inline std::string place_text(const Vec3d& x) {
-  return "[" + std::to_string(x.x) + " um, " + std::to_string(x.y) + " um, " + std::to_string(x.z) + " um]";
+/// A place as studies write it [µm], or another vector in its unit.
+inline std::string place_text(const Vec3d& x, const std::string& unit = "um") {
+  return "[" + std::to_string(x.x) + " " + unit + ", " + std::to_string(x.y) + " " + unit + ", " + std::to_string(x.z) + " " + unit + "]";
 }
 
 }  // namespace morula::scenarios::test

@@ -62,6 +62,8 @@ std::vector<Feature> bodies_and_walls() {
        kRange + "numerics: {start_cap: 0.1 um}\nlimits: {overlap: 2 um}\n", "20 s", "2 s", "4 s"},
       {"OwnMeshes", kShell, "[{type: cell, as: shell, meshes: {file: cube.stl, scale: 1 um, nodes: 162}}]", "contact: {range: 0.8 um}\n"},
       {"BiconcaveShells", cortexed("turnover: 5 min"), "[{type: cell, at: [[0 um, 0 um, 0 um]], as: shell, shape: biconcave}]", kRange},
+      {"DeepOverlaps", kShell, "[{type: cell, at: [[-4.6 um, 0 um, 0 um], [4.6 um, 0 um, 1 um], [0 um, 8 um, 0 um]], as: shell}]",
+       "limits: {overlap: 4 um}\n", "0.02 s", "0.005 s", "0.01 s"},
       {"ExplicitEuler", typed("cycle: {duration: 3 h}"), kBall, "", "10 s", "1 s", "5 s", "open", ", integrator: explicit_euler"},
       {"PackingOfSpheres", typed("cycle: {duration: 2 h}, cbm: {packing: {law: ideal_filled_cell}}"), kBall, "", "2 h", "20 min", "1 h"},
       {"ObjectiveFriction", kShell, kPair, "contact: {range: 1.2 um, friction: objective}\n"},
@@ -148,6 +150,7 @@ std::vector<Feature> shells_from_inside_and_outside() {
       {"ApicalSprings", kShell, kPair, kRange + marks + "apical: {inside: {mark: top, stiffness: 20 Pa/um, friction: 1e8 N s/m^3}}\n"},
       {"LoadedShellsAndAPlate", "", "", "", "", "", "30 s", "", "", loaded_study()},
       {"NucleiLinksOsmosisAndFields", "", "", "", "", "", "10 min", "", "", interior_study()},
+      {"SpheresThatAreMovedInAMould", "", "", "", "", "", "20 min", "", "", moulded_study()},
       {"CavityMarksSpringsAndActiveForces", "", "", "", "", "", "45 s", "", "", active_study()},
   };
 }

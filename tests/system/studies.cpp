@@ -157,6 +157,32 @@ output: {report: false}
 )";
 }
 
+std::string moulded_study() {
+  return R"(schema: 1
+study: moulded
+time: {end: 40 min, output: 400 s, checkpoint: 400 s}
+domain: {size: [90 um, 72 um, 108 um]}
+cell_types:
+  shell:
+    body: shell
+    cycle: {model: volume_threshold, duration: {mean: 40 min, spread: 10 %}, growth: linear, size: {control: sizer, spread: 5 %}, axis: long, shells: wait}
+    inhibit_growth: {pressure_above: never}
+    adhesion: {others: 0 mN/m}
+    cbm: {young: 0.5 kPa}
+    dcm: {nodes: 42, shape_stiffness: 0.02 mN/m, bulk_modulus: 10 kPa, cortex: {tension: 0.1 mN/m}}
+  ball:
+    radius: {mean: 6 um, spread: 3 %}
+    cycle: {model: phases, phases: {g1: {duration: 8 min, law: gaussian, spread: 30 %}, s: {duration: 8 min, law: fixed}, m: {duration: 3 min, law: fixed}}, axis: across_direction, direction: [-0.905, -0.099, -0.414], daughters: {fates: [{share: 50 %, types: [shell, shell]}, {share: 50 %, types: [ball, shell]}]}, arrest: {contact: {from: 0.2, to: 0.6}}}
+    inhibit_growth: {pressure_above: never}
+    adhesion: {others: 0 mN/m}
+    dcm: {nodes: 42, bulk_modulus: 1 kPa, cortex: {elastic: none, tension: 0.2 mN/m}}
+contact: {range: 1.2 um}
+initial: [{types: {shell: 40 %, ball: 60 %}, count: 5, fill: sphere, radius: 13.38 um, as: sphere}]
+geometry: {mould: {capsule: {from: [-8 um, 0 um, 0 um], to: [8 um, 0 um, 0 um], radius: 20 um}, side: inside}}
+output: {report: false}
+)";
+}
+
 std::string calibrated_study() {
   return "schema: 1\nstudy: small\ntime: {end: 1 h}\ndomain: {size: [80 um, 80 um, 80 um], boundary: open}\n"
          "cell_types: {small: {radius: 5 um, dcm: {nodes: 42}}}\ninitial: [{type: small, at: [[0 um, 0 um, 0 um]]}]\n";

@@ -13,6 +13,8 @@ namespace morula::test {
 [[nodiscard]] std::string interior_study();
 /// Shells and spheres with every kind of mark, region of tension, cavity, spring and active force: about 20 cells of 42 nodes about a cavity.
 [[nodiscard]] std::string active_study();
+/// Spheres in a mould, which divide into shells that press the others around: what obstacles do to them is told after each step.
+[[nodiscard]] std::string moulded_study();
 /// Shells of few nodes, all else default: type `small`, to be calibrated in seconds.
 [[nodiscard]] std::string calibrated_study();
 /// A text with the first `from` replaced by `to`; a test failure when it does not hold `from`.
