@@ -234,8 +234,8 @@ constexpr ErrorCode kCodes[] = {
     {651, "bodies that rest elsewhere",
      "The law of two spheres has them at another distance at rest than the tension and the adhesion of the type's shells have these. Where "
      "both meet, or a cell "
-     "changes its body, it moves by a part of the difference at once, since new shells find their shape while their neighbours hold still, "
-     "and neighbours follow. A law that was fitted to the shells does not have it "
+     "changes its body, they come together by a part of the difference, as fast as their friction lets them (decision 0088). A law that "
+     "was fitted to the shells does not have it "
      "(docs/calibration.md)."},
     {655, "column without a unit",
      "Lengths in a CSV file carry their unit in the header, `x [um]`, or the entry of `initial` says it for all of them, `units: um`."},

@@ -57,7 +57,7 @@ class Mechanics {
 
   /// Let the owned bodies with moves[body] != 0 find their shape between all others, which are held in place (fields_and_coupling.md, D). First
   /// they are let out of overlap: no adhesion and no friction, a traction capped at a value that grows from 0.1 kPa to 10 kPa. Then adhesion and
-  /// friction come in, and they settle. The clock stands still. Gives the deepest overlap of the moved bodies that is left [µm]; beyond
+  /// friction come in, and they settle, near to where they were (decision 0088). The clock stands still. Gives the deepest overlap of the moved bodies that is left [µm]; beyond
   /// kOverlapAtRest they found no room, and need the capped start to go on. Held shells take no part but by their surfaces. Collective.
   double relax(Tissue& tissue, std::span<const char> moves);
 

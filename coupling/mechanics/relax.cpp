@@ -5,6 +5,7 @@
 #include <functional>
 #include <numbers>
 
+#include "coupling/loads/grips.h"
 #include "coupling/mechanics/step.h"
 
 namespace morula {
@@ -22,8 +23,9 @@ constexpr int kBondingSteps = 20;       // over which adhesion and friction come
 constexpr double kFarStep = 0.1;        // a step is chosen to move nodes not much further [µm]
 constexpr double kAtRest = 6e-3;        // displacement of a longest step that counts as rest: 10⁻³ R a minute for R = 6 to 12 [µm]
 constexpr int kMostSteps = 200;
-constexpr double kFirstOfMarch = 2.0;  // [s]
-constexpr int kMostOfMarch = 60;       // steps: some that stick and slip never take long ones
+constexpr double kHoldsMiddle = 100.0;  // stiffness over adhesion: that draws a cell with up to 1.5πWR, 0.05 R of such a spring
+constexpr double kFirstOfMarch = 2.0;   // [s]
+constexpr int kMostOfMarch = 60;        // steps: some that stick and slip never take long ones
 
 /// The deepest overlap that there can be: two radii of the largest shell that moves.
 double deepest_possible(const Tissue& tissue, std::span<const char> moves, const Comm& comm) {
@@ -31,6 +33,20 @@ double deepest_possible(const Tissue& tissue, std::span<const char> moves, const
   for (std::size_t i = 0; i < tissue.shells.size(); ++i)
     if (moves[i]) largest_volume = std::max(largest_volume, tissue.shells.rest_volume[i]);
   return 2.0 * std::cbrt(0.75 / std::numbers::pi * comm.max(largest_volume));
+}
+
+/// Springs that keep the middle of each shell that moves near to where it is, against adhesion that would draw it while nobody answers (decision 0088).
+std::vector<Anchor> middles_of(const Tissue& tissue, std::span<const char> moves, double stiffness) {
+  std::vector<Anchor> out;
+  for (std::size_t i = 0; i < tissue.shells.size(); ++i) {
+    if (!moves[i] || !(stiffness > 0.0)) continue;
+    Anchor& middle = out.emplace_back();
+    middle.node = tissue.shells.first_node[i];
+    middle.shell = static_cast<int>(i);
+    middle.stiffness = stiffness;
+    middle.target = held_place(middle, tissue);
+  }
+  return out;
 }
 
 /// Lets overlap be seen as deep as there is any: to look deeper takes longer. Collective.
@@ -61,8 +77,11 @@ double relax_in_place(Workspace& work, Tissue& tissue, std::span<const char> mov
   double dt = kFirstStep, overlap = deepest_overlap(work);
   const bool is_group = work.setting.comm.sum(static_cast<std::int64_t>(std::ranges::count_if(moves, std::identity()))) >= kGroup;
   const AllowedWays allowed = allowed_ways(work.setting.model);
+  double adhesion = 0.0;
+  for (const ContactPair& pair : work.setting.model.pairs) adhesion = std::max(adhesion, pair.adhesion);
+  const std::vector<Anchor> held = middles_of(tissue, moves, kHoldsMiddle * adhesion);
   for (int k = 0; k < kMostSteps; ++k) {
-    const auto done = advance(work, tissue, {dt, none, {}, &settling});
+    const auto done = advance(work, tissue, {dt, none, held, &settling});
     if (!done) {
       dt *= 0.25;
       if (dt < kShortestStep) break;  // as far as it goes

@@ -78,10 +78,15 @@ void RunLoop::expect_growth(const std::vector<std::int64_t>& of_type) {
   load_.most_shells = most_shells(study_.model, static_cast<double>(progress_.cells));
 }
 
-Status RunLoop::begin() {
+Status RunLoop::begin_texts() {
+  MORULA_TRY(agree(folder_.write_status(status(RunState::kRunning)), comm_));  // whose process it is, whatever comes
   std::vector<SeriesHeader> header;
   for (const Observable& column : columns_) header.push_back({column.name, column.unit});
-  MORULA_TRY(agree(folder_.begin_series(header), comm_));
+  return agree(folder_.begin_series(header), comm_);
+}
+
+Status RunLoop::begin() {
+  MORULA_TRY(begin_texts());
   if (comm_.is_root()) text_status_ = append_to_text(folder_.events(), "");
   auto placed = simulation_->first_swaps();
   if (!placed.ok()) {  // some cells have their new body but not yet their shape: no state to go on from
@@ -99,9 +104,7 @@ Status RunLoop::begin() {
 Status RunLoop::go_back(const CheckpointInfo& checkpoint) {
   warned_ = checkpoint.warned;
   interval_ = checkpoint.interval;
-  std::vector<SeriesHeader> header;
-  for (const Observable& column : columns_) header.push_back({column.name, column.unit});
-  MORULA_TRY(agree(folder_.begin_series(header), comm_));
+  MORULA_TRY(begin_texts());
   const double time = simulation_->tissue().clock.time;
   const Result<bool> events_lost = folder_.cut_back(time, checkpoint.texts);
   MORULA_TRY(agree(events_lost.ok() ? Status{} : Status(events_lost.error()), comm_));

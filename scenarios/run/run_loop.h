@@ -47,6 +47,8 @@ class RunLoop {
  private:
   using SteadyClock = std::chrono::steady_clock;
 
+  /// status.json of a run that has begun, and the head of series.csv.
+  Status begin_texts();
   Status step(double land_on);
   /// The study asks to end at rest, and nothing moves or will move any more. Collective.
   [[nodiscard]] bool at_rest();

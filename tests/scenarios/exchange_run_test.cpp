@@ -144,6 +144,40 @@ TEST(ExchangeRun, TellsTheRoomTheForcesAndTheWaysOfTheNeighbours) {
   EXPECT_TRUE(simulation->tissue().watched.empty());
 }
 
+/// Decision 0088. Default shells rest nearer to each other than default spheres: a cell that becomes a shell is where it was, and then both come together as
+/// their friction lets them, and nothing moves their middle. (It went 0.36 R to its neighbour while the clock stood.)
+TEST(ExchangeRun, DoesNotMoveTheCellThatBecomesAShell) {
+  const auto study = test::read(R"(
+schema: 1
+study: pair
+time: {end: 90 min, output: 5 min}
+domain: {size: [200 um, 200 um, 200 um]}
+cell_types: {a: {radius: 6 um}}
+initial: [{type: a, as: sphere, at: [[0 um, 0 um, 0 um], [11.35 um, 0 um, 0 um]]}]
+coupling: {regions: [{name: one, shape: cells, ids: [1], from: 30 min}]}
+output: {report: false}
+)");
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  const test::Folder folder;
+  ASSERT_TRUE(test::run_into(folder.path() / "run", *study));
+  FinishedRun files(*study, folder.path() / "run");
+  const auto events = files.events();
+  ASSERT_TRUE(events.ok());
+  const auto promotion = std::ranges::find((*events)->begin(), (*events)->end(), "promotion", &EventLine::kind);
+  ASSERT_NE(promotion, (*events)->end());
+  EXPECT_LT(promotion->exchange->own_way, 0.02);
+  EXPECT_GT(promotion->exchange->largest_force, 0.3) << "the adhesion that draws both together [nN]";
+  const auto before = files.snapshot_at(1800.0), after = files.snapshot_at(5400.0);
+  ASSERT_TRUE(before.ok() && *before && after.ok() && *after);
+  const Vec3d way_of_shell = (*after)->cells[0].centroid - (*before)->cells[0].centroid,
+              way_of_sphere = (*after)->cells[1].centroid - (*before)->cells[1].centroid;
+  EXPECT_GT(norm(way_of_shell) + norm(way_of_sphere), 0.2 * 6.0);
+  EXPECT_NEAR(norm(way_of_shell) / norm(way_of_sphere), 1.0, 0.1) << "the friction of both with the medium is about the same";
+  const auto series = files.series();
+  ASSERT_TRUE(series.ok());
+  EXPECT_LT((*series)->find("centre_drift")->values.back(), 0.02 * 6.0) << "no more than the cell went while the clock stood";
+}
+
 /// A ball of cells inflates and presses on itself; then the inner ones become shells together, in one step: one in a hundred cells may.
 constexpr const char* kGroup = R"(
 schema: 1

@@ -147,6 +147,21 @@ TEST(Stop, ASecondRunInTheSameFolderIsRefusedWhileTheFirstRuns) {
   EXPECT_EQ(command.wait().exit_code, 75);
 }
 
+TEST(Kill, BeforeTheFirstCheckpointIsToldAsLost) {
+  const TestFolder folder;
+  folder.write("study.yaml",
+               sphere_study() + "coupling: {regions: [{name: all, shape: everything, as: shell}]}\n");  // they look for their shape first
+  RunningCommand command({"run", "study.yaml", "--out", "killed"}, folder.path());
+  ASSERT_TRUE(command.wait_for(folder / "killed/status.json"));
+  command.send(SIGSTOP);
+  const bool has_checkpoint = std::filesystem::exists(folder / "killed/checkpoints/cp_000000.h5");
+  command.send(SIGKILL);
+  ASSERT_EQ(command.wait().exit_code, 137);
+  ASSERT_FALSE(has_checkpoint);
+  EXPECT_EQ(json::parse(run_morula({"status", "killed", "--json"}, folder.path()).out)["state"], "lost");
+  EXPECT_THAT(run_morula({"status", "killed"}, folder.path()).out, testing::HasSubstr("begin again: "));
+}
+
 TEST(Kill, AtARandomMomentThenResumeEndsInTheSameBits) {
   const TestFolder folder;
   const std::string study = changed(sphere_study(), "checkpoint: 30 min", "checkpoint: 10 min");
