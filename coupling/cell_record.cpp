@@ -270,12 +270,44 @@ ShellRecord spherical_shell(std::shared_ptr<const ReferenceShape> shape, const V
   return body;
 }
 
+namespace {
+
+/// How far the planes of the faces are from a point within, at least; and the outward normal of the nearest.
+struct Clearance {
+  double distance = 0.0;
+  Vec3d towards;
+};
+Clearance clearance_at(const Vec3d& x, std::span<const Triangle> faces, std::span<const Vec3d> node) {
+  Clearance out{std::numeric_limits<double>::infinity(), {}};
+  for (const Triangle& t : faces) {
+    const Vec3d normal = normalized(cross(node[t[1]] - node[t[0]], node[t[2]] - node[t[0]]));
+    if (const double distance = dot(node[t[0]] - x, normal); distance < out.distance) out = {distance, normal};
+  }
+  return out;
+}
+
+/// Where a ball of this radius lies in a cell: in its middle, or where the middle leaves it no room, as in the flat part that a division has cut off, where
+/// there is most room (by going away from the nearest face, ever less far).
+Vec3d middle_for(double radius, std::span<const Triangle> faces, std::span<const Vec3d> node) {
+  constexpr int kSteps = 60;
+  Vec3d x = volume_centroid(faces, node), best = x;
+  Clearance at = clearance_at(x, faces, node);
+  for (double most = at.distance, step = 0.2 * radius; most < radius && step > 0.2 * radius / kSteps; step -= 0.2 * radius / kSteps) {
+    x -= at.towards * step;
+    at = clearance_at(x, faces, node);
+    if (at.distance > most) most = at.distance, best = x;
+  }
+  return best;
+}
+
+}  // namespace
+
 void place_nucleus(ShellRecord& shell, const CellType& type, ShapeLibrary& shapes) {
   const dcm::InteriorParameters& interior = type.interior;
   shell.nucleus.reset();
   shell.nuclear_shell.reset();
   if (!interior.has_nucleus()) return;
-  const Vec3d center = volume_centroid(shell.shape->topology->faces(), shell.position);
+  const Vec3d center = middle_for(dcm::nucleus_radius(interior, shell.rest_volume), shell.shape->topology->faces(), shell.position);
   if (interior.has_rigid_nucleus()) {
     shell.nucleus = center;
     return;

@@ -12,6 +12,7 @@
 #include "coupling/behaviours/division_axis.h"
 #include "coupling/behaviours/life.h"
 #include "coupling/behaviours/shell_division.h"
+#include "coupling/beside_nucleus.h"
 #include "coupling/cell_record.h"
 #include "coupling/overlap.h"
 #include "coupling/settle_shells.h"
@@ -64,6 +65,20 @@ Daughters divide_as_sphere(const CellRecord& mother, const DaughterRows& rows, c
   return out;
 }
 
+double volume_of(const dcm::ShellRecord& shell) {
+  const auto faces = shell.shape->topology->faces();
+  return enclosed_volume(faces, shell.position, volume_centroid(faces, shell.position));
+}
+
+/// V0 of a daughter that has the pressure of her mother where one of them has a nucleus that is a shell: what lies beside it counts.
+void share_beside_nuclei(const CellRecord& mother, const CellType& type, const CellType& own, const CellState& row,
+                         dcm::ShellRecord& shell) {
+  if (!type.interior.has_nuclear_shell() && !own.interior.has_nuclear_shell()) return;
+  double beside = volume_of(*mother.shell);
+  if (mother.shell->nuclear_shell) beside = (beside - volume_of(*mother.shell->nuclear_shell)) / (1.0 - type.interior.nucleus_fraction);
+  shell.reference_volume = mother.shell->reference_volume * volume_beside_nucleus(own, volume_of(shell), row.birth_volume) / beside;
+}
+
 Daughters divide_as_shell(const CellRecord& mother, const CellType& type, const AroundDivision& around, const DaughterRows& rows,
                           const ShellToDivide& what, std::uint32_t seed) {
   const CellAtDivision cell{mother.row, type, {mother.shell->position, mother.shell->shape->topology.get()}, around};
@@ -76,6 +91,7 @@ Daughters divide_as_shell(const CellRecord& mother, const CellType& type, const 
       const CellType& own = *what.type[which];
       CellState& row = out[which].row = which == 0 ? rows.first : rows.second;
       dcm::ShellRecord& shell = (*divided)[which];
+      share_beside_nuclei(mother, type, own, row, shell);
       // A daughter keeps the pressure: V0 goes with the volume. Osmolytes are shared with the target volume, and water follows them.
       row.reference_excess =
           std::log(shell.reference_volume / free_reference_volume(row.birth_volume, own, deviation(row, own, Trait::kTension)));

@@ -6,6 +6,15 @@
 #include "coupling/mechanics/scene.h"
 
 namespace morula {
+namespace {
+
+/// How deep the nucleus of an owned shell lies within its cortex; 0 where it has none [µm].
+double nuclear_overlap(const Mechanics& mechanics, std::uint32_t shell) {
+  const auto nuclear = mechanics.nucleus_of(shell);
+  return nuclear ? nuclear->overlap : mechanics.interior_of(shell).overlap;
+}
+
+}  // namespace
 
 Extreme deepest_overlap(Simulation& simulation) {
   const auto& contacts = simulation.mechanics().contacts();
@@ -17,10 +26,7 @@ Extreme deepest_overlap(Simulation& simulation) {
     out.offer(pair.overlap, pair.rigid ? bodies[pair.a].id : std::min(bodies[pair.a].id, bodies[pair.b].id));
   }
   for (std::uint32_t s = 0; s < simulation.mechanics().scene().owned_shells(); ++s) {
-    const auto nuclear = simulation.mechanics().nucleus_of(s);
-    if (!nuclear && simulation.tissue().shells.nucleus_of(s) == nullptr) continue;
-    const double overlap = nuclear ? nuclear->overlap : simulation.mechanics().interior_of(s).overlap;
-    if (overlap > 0.0) out.offer(overlap, bodies[s].id);
+    if (const double overlap = nuclear_overlap(simulation.mechanics(), s); overlap > 0.0) out.offer(overlap, bodies[s].id);
   }
   return out;
 }
@@ -37,6 +43,8 @@ std::vector<CellId> too_deep(const Mechanics& mechanics, std::span<const CellId>
     offer(bodies[pair.a].id);
     if (!pair.rigid) offer(bodies[pair.b].id);
   }
+  for (std::uint32_t s = 0; s < mechanics.scene().owned_shells(); ++s)
+    if (nuclear_overlap(mechanics, s) > depth) offer(bodies[s].id);
   std::sort(out.begin(), out.end());
   out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;

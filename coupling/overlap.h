@@ -21,7 +21,7 @@ struct Extreme {
 /// The deepest penetration of a surface on this rank, into another surface, an obstacle or a nucleus, after an evaluation of the contacts [µm].
 Extreme deepest_overlap(Simulation& simulation);
 
-/// The cells of this list that lie deeper than this within another surface, as the contacts were found last. `these` is sorted; so is the answer.
+/// The cells of this list that lie deeper than this within another surface, or their nucleus within their own, as the contacts were found last. `these` is sorted; so is the answer.
 std::vector<CellId> too_deep(const Mechanics& mechanics, std::span<const CellId> these, double depth);
 
 }  // namespace morula

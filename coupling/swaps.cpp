@@ -13,6 +13,7 @@
 #include "core/ball.h"
 #include "core/parallel/pack.h"
 #include "core/random/rotation.h"
+#include "coupling/beside_nucleus.h"
 #include "coupling/who_is_in.h"
 #include "dcm/growth.h"
 
@@ -207,7 +208,8 @@ double promote(CellRecord& cell, const CellType& type, double pressure, double t
   const double deviation = morula::deviation(cell.row, type, Trait::kTension);
   const double to_come = (pressed - volume) * (ball / pressed);
   double reference = free_reference_volume(ball - to_come, type, deviation);
-  if (type.osmosis.acts()) reference *= std::exp(pressure / type.shell.bulk_modulus);
+  if (type.osmosis.acts())
+    reference *= volume_beside_nucleus(type, ball, cell.row.target_volume) / ball * std::exp(pressure / type.shell.bulk_modulus);
   ShellRecord shell = spherical_shell(shapes.icosphere(type.shell_nodes).value(), sphere.position, volume, reference);
   shell.rest_volume = cell.row.target_volume;  // stress-free at the size of the cell, as in every step
   shell.rest_length = free_rest_lengths(*shell.shape, shell.rest_volume);

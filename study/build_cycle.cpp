@@ -83,6 +83,7 @@ std::vector<CellArrest> build_arrest(BuildContext& c, const std::map<std::string
 
 /// Growth that stops at a pressure already at which its factor is not 0 yet: E510.
 void check_switch(BuildContext& c, const draft::CellType& t, const CellType& type) {
+  if (!type.cycles) return;
   for (const CellArrest& one : type.cycle.arrest) {
     const double full = one.what->full_pressure != nullptr ? one.what->full_pressure(one.values) : 0.0;
     if (full > type.inhibit_pressure)
@@ -107,6 +108,9 @@ void tell_of_rest(BuildContext& c, const draft::CellType& t, const std::string& 
   idle(t.division_share.mean, "share");
   idle(t.shells_divide, "shells");
   idle(t.new_surface, "new_surface");
+  if (t.cycle.has_arrest && !t.cycle.arrest.empty())
+    c.diagnostics.warning(515, t.cycle_model.place, "'arrest' has no effect here: cells of '" + name + "' rest",
+                          "another `model`, or leave it away (where it comes by `like`: `arrest: default`)");
 }
 
 }  // namespace

@@ -54,14 +54,16 @@ void check_osmotic_volumes(BuildContext& c, const draft::Osmosis& d, const Osmos
   }
 }
 
-dcm::LinkParameters links_of(BuildContext& c, const draft::Links& d, std::uint64_t nodes, const std::string& type_name) {
+/// `most`: the links that there can be; 0: not known.
+dcm::LinkParameters links_of(BuildContext& c, const draft::Links& d, std::uint64_t nodes, std::uint64_t most,
+                             const std::string& type_name) {
   if (!d.present) return {};
-  if (d.number.given && d.number.known() && d.number.value != std::numeric_limits<std::uint64_t>::max() && nodes > 0 &&
-      d.number.value > nodes)
+  if (d.number.given && d.number.known() && d.number.value != std::numeric_limits<std::uint64_t>::max() && most > 0 &&
+      d.number.value > most)
     c.diagnostics.error(
         539, d.number.place,
         "shells of '" + type_name + "' have " + std::to_string(nodes) + " nodes, not enough for " + d.number.text + " links",
-        "at most " + std::to_string(nodes) + ", or `all`");
+        "at most " + std::to_string(most) + ", or `all`");
   dcm::LinkParameters out;
   out.count = static_cast<std::uint32_t>(std::min<std::uint64_t>(d.number.value, dcm::LinkParameters::kAll));
   out.stiffness = d.stiffness.value;
@@ -137,8 +139,8 @@ dcm::InteriorParameters build_interior(BuildContext& c, const draft::CellType& t
                             " % of the cell, but only " + t.osmosis.inactive.text + " are inactive",
                         "`osmosis.inactive` of at least the nucleus' part, or a smaller nucleus");
   const std::uint64_t nodes = t.nodes.known() ? t.nodes.value : 0;
-  out.nucleus_links = links_of(c, t.nucleus_links, nodes, type_name);
-  out.cortex_links = links_of(c, t.cortex_links, nodes, type_name);
+  out.nucleus_links = links_of(c, t.nucleus_links, nodes, nodes, type_name);
+  out.cortex_links = links_of(c, t.cortex_links, nodes, nodes / 2, type_name);  // one for a pair of opposite nodes
   if (t.nucleus_links.present && !has_nucleus)
     c.diagnostics.error(538, t.nucleus_links.stiffness.place, "shells of '" + type_name + "' have links to a nucleus, but no nucleus",
                         "add for example `nucleus: {radius: 2.5 um}` to `dcm`, or use `cortex_links`");

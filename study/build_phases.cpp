@@ -34,9 +34,11 @@ CyclePhase build_phase(BuildContext& c, const Named<draft::CyclePhase>& item) {
   if (item.name == kQuiescentPhase)
     c.diagnostics.error(112, item.place, "a phase cannot be called 'G0'", "that is where `quiescence` takes cells to");
   const bool by_size = p.until.value == "size", gaussian = p.law.value == "gaussian", erlang = p.law.value == "erlang";
-  check_key(c, p.duration, "duration", !by_size, p.until, "a phase that ends by size has no duration");
-  check_key(c, p.spread, "spread", gaussian && !by_size, p.law, "it belongs to `law: gaussian`");
-  check_key(c, p.stages, "stages", erlang && !by_size, p.law, "it belongs to `law: erlang`");
+  const char* const no_duration = "a phase that ends by size has no duration";
+  check_key(c, p.duration, "duration", !by_size, p.until, no_duration);
+  check_key(c, p.spread, "spread", gaussian && !by_size, p.law, by_size ? no_duration : "it belongs to `law: gaussian`");
+  check_key(c, p.stages, "stages", erlang && !by_size, p.law, by_size ? no_duration : "it belongs to `law: erlang`");
+  if (by_size && p.law.is_changed()) check_key(c, p.law, "law", false, p.until, no_duration);
   out.length = by_size ? Length::kSize : gaussian ? Length::kGaussian : erlang ? Length::kErlang : Length::kFixed;
   out.time = {p.duration.value, gaussian ? p.spread.value : 0.0};
   if (erlang) out.stages = static_cast<std::uint32_t>(std::max<std::uint64_t>(1, p.stages.value));
@@ -117,6 +119,12 @@ void build_phases(BuildContext& c, const draft::CellType& t, CellType& type) {
   check_size_phase(c, t, type);
   if (paced_by_phases(cycle)) type.cycle_duration = whole_cycle(cycle.phases);
   build_quiescence(c, t.cycle, cycle);
+  for (std::size_t p = 0; p < t.cycle.phases.size(); ++p)
+    if (cycle.phases[p].length == Length::kSize && !cycle.phases[p].arrest.empty() && cycle.quiescence.phase != static_cast<int>(p))
+      c.diagnostics.warning(
+          515, t.cycle.phases[p].place,
+          "'arrest' of phase '" + cycle.phases[p].name + "' has no effect here: the phase ends by size, however long it takes",
+          "`arrest` of the cycle holds growth back; `quiescence` takes cells of this phase to G0");
 }
 
 }  // namespace morula::scenarios

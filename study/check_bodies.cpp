@@ -93,6 +93,7 @@ bool may_be_sphere(const BuildContext& c, std::size_t type) {
   const draft::Study& d = c.draft;
   if (std::ranges::any_of(d.coupling.regions, [](const auto& r) { return r.content.body.value == "sphere"; })) return true;
   for (const std::size_t origin : origins_of(d, type)) {
+    if (origin != type && d.cell_types[type].content.body.value != "shell") return true;  // daughters take the body of their type
     const std::string& name = d.cell_types[origin].name;
     for (const auto& block : d.initial) {
       const draft::Initial& b = block.content;

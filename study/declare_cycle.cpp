@@ -124,7 +124,7 @@ void declare_size(Section& c, draft::Cycle& t) {
                t.control);
         s.quantity({.name = "volume",
                     .doc = "Of a sizer the division volume, of an adder what is added. Without it `ratio` times, or `ratio` - 1 times, the "
-                           "mean birth volume of the type.",
+                           "volume of the type's mean `radius`.",
                     .quantity = Q::kVolume,
                     .low = 0.0,
                     .low_open = true,

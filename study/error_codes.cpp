@@ -299,7 +299,7 @@ constexpr ErrorCode kCodes[] = {
      "What does not fit is ended by the system."},
     {700, "cycle that never ends",
      "A cell that divides at a volume must grow, in one phase at least; one that does not grow divides by the clock of its phases."},
-    {701, "division below the size at birth", "A sizer's division volume must be larger than the mean birth volume of the type."},
+    {701, "division below the size at birth", "A sizer's division volume must be larger than the volume of the type's mean radius."},
     {702, "phase that size cannot end",
      "The phase that ends when the cell has its division volume is the last one in which cells grow. Sizer and adder need such a phase."},
     {703, "no way into quiescence",

@@ -7,7 +7,7 @@
 namespace morula {
 
 /// How fast a cell grows by the law of its type. Where its birth volume alone decides at which volume it divides (timer), from that to its division
-/// volume in its own cycle duration; else, so that small cells take longer, from the mean birth volume of its type to `ratio` times that.
+/// volume in its own cycle duration; else, so that small cells take longer, from the volume of its type's mean radius to `ratio` times that.
 GrowthPace growth_pace(const CellRow& row, const CellType& type);
 
 /// Volume at which a cell of this birth volume divides [µm³], after its type's control of size; stream kDivisionSize, keyed by the id.

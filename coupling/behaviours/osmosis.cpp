@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coupling/beside_nucleus.h"
+
 namespace morula {
 namespace {
 
@@ -79,7 +81,10 @@ OsmoticCell osmotic_cell(const CellState& row, const CellType& type, double time
 void exchange_water(CellState& row, const CellType& type, double time, double dt, double volume, double area, double pressure) {
   const OsmoticCell cell = osmotic_cell(row, type, time, area, pressure);
   const double start = std::max(volume, cell.inactive + 1e-3 * (row.target_volume - cell.inactive));  // squeezed below V_b: water comes in
-  row.reference_excess += std::log(volume_after_flux(cell, start, dt) / volume);
+  const double end = volume_after_flux(cell, start, dt);
+  const auto with_body = [&](double v) { return row.body == BodyKind::kShell ? volume_beside_nucleus(type, v, row.target_volume) : v; };
+  const double before = with_body(volume), after = with_body(end);
+  row.reference_excess += std::log(before > 0.0 && after > 0.0 ? after / before : end / volume);
 }
 
 }  // namespace morula

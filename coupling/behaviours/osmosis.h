@@ -40,7 +40,7 @@ OsmoticCell osmotic_cell(const CellState& row, const CellType& type, double time
 /// volume of a sphere) is what it would be without osmosis times e^excess.
 ///
 /// For a shell this is the law dV0/dt = L_p A (ΔΠ − Δp) with ΔΠ at the present volume V, made implicit: while the load on the cell stays,
-/// V = V0 e^{−Δp/K_V} follows V0 in proportion. `volume` is the body's present volume [µm³].
+/// V = V0 e^{−Δp/K_V} follows V0 in proportion, beside a nucleus that is a shell. `volume` is the body's present volume [µm³].
 void exchange_water(CellState& row, const CellType& type, double time, double dt, double volume, double area, double pressure);
 
 }  // namespace morula

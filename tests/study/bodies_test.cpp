@@ -186,6 +186,19 @@ TEST(Bodies, ThatRestElsewhereAreWarnedOf) {
   EXPECT_THAT(with("radius: 11.8 um, cbm: {young: 177 Pa}, dcm: {cortex: {tension: 0.3 mN/m}}", "shell"), Not(HasSubstr("E651")));
 }
 
+/// Daughters of a type that is a sphere become one, though all cells of the study begin as shells.
+TEST(Bodies, OfFatesThatRestElsewhereAreWarnedOf) {
+  const auto with_body = [](const char* body) {
+    return test::warnings_of(
+        std::string("schema: 1\nstudy: fates\ntime: {end: 3 h}\ndomain: {size: [200 um, 200 um, 200 um]}\ncell_types:\n") +
+        "  a: {radius: 6 um, body: shell, cycle: {duration: 2 h, daughters: {fates: [{share: 100 %, types: [a, b]}]}}}\n  b: {radius: 6 "
+        "um, body: " +
+        body + ", cycle: {model: none}}\ninitial: [{type: a, at: [[0 um, 0 um, 0 um]]}]\n");
+  };
+  EXPECT_THAT(with_body("sphere"), HasSubstr("two spheres of 'b' rest 1.89 R apart"));
+  EXPECT_THAT(with_body("shell"), Not(HasSubstr("E651")));
+}
+
 /// Two spheres that are put where they rest: by default a contact of 0.40 R, with 450 Pa one of 0.60 R.
 TEST(Bodies, ARunTellsItsContactsBeyondTheRange) {
   const test::Folder folder;

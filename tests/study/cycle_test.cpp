@@ -99,6 +99,9 @@ TEST(PhaseKeys, AreChecked) {
   EXPECT_THAT(errors(phases + "{G1: {duration: 1 h, law: poisson}}"), HasSubstr("erlang"));
   EXPECT_THAT(errors(phases + "{G1: {duration: 1 h, until: size}}"), HasSubstr("[E515]"));
   EXPECT_THAT(errors(phases + "{G1: {until: size}, S: 1 h}"), HasSubstr("[E702]"));
+  EXPECT_THAT(
+      errors(phases + "{G1: {until: size, law: erlang, stages: 3}}"),
+      AllOf(HasSubstr("'stages' has no effect here"), HasSubstr("'law' has no effect here"), HasSubstr("ends by size has no duration")));
   EXPECT_EQ(errors(phases + "{G1: {until: size}, S: {duration: 1 h, grows: false}}"), "");
   EXPECT_THAT(errors(phases + "{G1: {duration: 1 h, grows: false}}"), HasSubstr("grow in no phase [E700]"));
   EXPECT_EQ(errors(phases + "{G1: {duration: 1 h, grows: false}}, growth: none"), "");
@@ -132,6 +135,14 @@ TEST(CycleKeys, ThatNeedGrowthAreToldWithoutIt) {
   EXPECT_THAT(warnings("model: none, growth: exponential, size: adder"),
               AllOf(HasSubstr("'growth' has no effect here: cells of 'a' rest"), HasSubstr("'size' has no effect here")));
   EXPECT_EQ(warnings("model: none"), "");
+  EXPECT_THAT(warnings("model: none, arrest: {volume: {from: 95 %, to: 85 %}}"),
+              HasSubstr("'arrest' has no effect here: cells of 'a' rest"));
+}
+
+TEST(PhaseKeys, AnArrestOfAPhaseThatEndsBySizeIsToldUnlessItLeadsToG0) {
+  const std::string held = "model: phases, phases: {A: {until: size, arrest: {volume: {from: 95 %, to: 85 %}}}}";
+  EXPECT_THAT(warnings(held), HasSubstr("'arrest' of phase 'A' has no effect here: the phase ends by size"));
+  EXPECT_EQ(warnings(held + ", quiescence: {phase: A, below: 20 %, above: 80 %}"), "");
 }
 
 TEST(ArrestKeys, AreChecked) {

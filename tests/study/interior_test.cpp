@@ -73,6 +73,8 @@ TEST(InteriorKeys, WrongOnesAreRefusedWithPlaceAndHelp) {
   EXPECT_THAT(errors_of(with_shell_key("cytoskeleton: {nucleus_links: {stiffness: 0.01 nN/um}}")),
               AllOf(HasSubstr("no nucleus"), HasSubstr("[E538]")));
   EXPECT_THAT(errors_of(with_shell_key("cytoskeleton: {cortex_links: {stiffness: 0.01 nN/um, number: 500}}")), HasSubstr("[E539]"));
+  EXPECT_THAT(errors_of(with_shell_key("cytoskeleton: {cortex_links: {stiffness: 0.01 nN/um, number: 82}}")),
+              AllOf(HasSubstr("at most 81"), HasSubstr("[E539]")));
   EXPECT_THAT(errors_of(with_shell_key("cytoskeleton: {cortex_links: {number: 5}}")), HasSubstr("[E103]"));
   EXPECT_THAT(errors_of(with_shell_key("cytoskeleton: {cortex_links: {stiffness: -1 nN/um}}")), HasSubstr("[E302]"));
   EXPECT_THAT(errors_of(with_shell_key("bulk_modulus: 0 kPa")),
