@@ -183,7 +183,8 @@ void build_cycle(BuildContext& c, const draft::CellType& t, const Place& place, 
                           "leave it away");
   if (!paced_by_phases(type.cycle)) return;
   if (t.cycle_duration.mean.is_changed())
-    c.diagnostics.error(515, t.cycle_duration.mean.place, "'duration' has no effect here", "the phases say how long the cycle is");
+    c.diagnostics.error(515, t.cycle_duration.mean.place, "'duration' has no effect here",
+                        "the phases say how long the cycle of '" + type.name + "' is; `duration: default` where it comes by `like`");
   if (t.cycle_duration.correlation.value != 0.0)
     c.diagnostics.error(515, t.cycle_duration.correlation.place, "'correlation' has no effect here",
                         "the phases say how long the cycle is");

@@ -191,13 +191,14 @@ void declare_initial(Section& s, draft::Initial& i) {
           .example = "random",
           .source = "chosen"},
          i.age);
-  s.text({.name = "csv",
-          .doc = "Cells from a CSV file with the columns x,y,z,type[,radius,phase,model]; units in the header, `x [um]`, or as `units`. "
-                 "`radius`: of the cell as it is at time 0, wherever it is in its cycle. "
-                 "`phase`: how far a cell is in its "
-                 "cycle, from 0 (birth) to below 1; of types without a cycle it says nothing. `model`: `sphere` or `shell`.",
-          .example = "cells.csv"},
-         i.csv);
+  s.text(
+      {.name = "csv",
+       .doc = "Cells from a CSV file with the columns x,y,z,type[,radius,phase,model]; units in the header, `x [um]`, or as `units`. "
+              "`radius`: of the cell as it is at time 0, wherever it is in its cycle. "
+              "`phase`: how far a cell is in its cycle, by the clock of a timer (whatever controls its size), from 0 (birth) to below 1; "
+              "of types without a cycle it says nothing. `model`: `sphere` or `shell`.",
+       .example = "cells.csv"},
+      i.csv);
   s.text({.name = "units", .doc = "Unit of the lengths of a CSV file whose header has none.", .example = "um"}, i.units);
   s.quantity({.name = "coincident_shift",
               .doc = "Cells of a CSV file at the same place are named and moved apart by this distance.",
