@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -175,6 +176,11 @@ OfBodies of_bodies(bool shells, const Tissue& tissue, const Replacement& rows, s
 }
 
 }  // namespace
+
+double volume_of(const dcm::ShellRecord& shell) {
+  const auto faces = shell.shape->topology->faces();
+  return enclosed_volume(faces, shell.position, volume_centroid(faces, shell.position));
+}
 
 Vec3d CellRecord::center() const { return sphere ? sphere->position : volume_centroid(shell->shape->topology->faces(), shell->position); }
 

@@ -26,6 +26,9 @@ struct CellRecord {
   [[nodiscard]] Vec3d center() const;
 };
 
+/// What a shell encloses [µm³].
+double volume_of(const dcm::ShellRecord& shell);
+
 /// All cells of the tissue as records, in the order of the rows. The tissue's cells and bodies are left empty; it keeps its variables.
 std::vector<CellRecord> take_apart(Tissue& tissue);
 

@@ -65,18 +65,13 @@ Daughters divide_as_sphere(const CellRecord& mother, const DaughterRows& rows, c
   return out;
 }
 
-double volume_of(const dcm::ShellRecord& shell) {
-  const auto faces = shell.shape->topology->faces();
-  return enclosed_volume(faces, shell.position, volume_centroid(faces, shell.position));
-}
-
 /// V0 of a daughter that has the pressure of her mother where one of them has a nucleus that is a shell: what lies beside it counts.
 void share_beside_nuclei(const CellRecord& mother, const CellType& type, const CellType& own, const CellState& row,
                          dcm::ShellRecord& shell) {
   if (!type.interior.has_nuclear_shell() && !own.interior.has_nuclear_shell()) return;
-  double beside = volume_of(*mother.shell);
-  if (mother.shell->nuclear_shell) beside = (beside - volume_of(*mother.shell->nuclear_shell)) / (1.0 - type.interior.nucleus_fraction);
-  shell.reference_volume = mother.shell->reference_volume * volume_beside_nucleus(own, volume_of(shell), row.birth_volume) / beside;
+  const dcm::ShellRecord& whole = *mother.shell;
+  const double beside = volume_beside_nucleus(type, volume_of(whole), whole.nuclear_shell ? volume_of(*whole.nuclear_shell) : 0.0);
+  shell.reference_volume = whole.reference_volume * volume_beside_resting_nucleus(own, volume_of(shell), row.birth_volume) / beside;
 }
 
 Daughters divide_as_shell(const CellRecord& mother, const CellType& type, const AroundDivision& around, const DaughterRows& rows,

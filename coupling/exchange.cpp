@@ -13,10 +13,7 @@
 namespace morula {
 namespace {
 
-double volume_of(const CellRecord& cell) {
-  if (cell.sphere) return ball_volume(cell.sphere->radius);
-  return enclosed_volume(cell.shell->shape->topology->faces(), cell.shell->position, cell.center());
-}
+double volume_of_body(const CellRecord& cell) { return cell.sphere ? ball_volume(cell.sphere->radius) : volume_of(*cell.shell); }
 
 /// Cells just promoted that found no room (`back`, sorted) become again the spheres they were; their events say so.
 void take_back(Tissue& tissue, std::vector<CellRecord> before, std::span<const CellId> back, std::vector<Event>& events) {
@@ -77,7 +74,7 @@ std::vector<Event> Simulation::swap_bodies() {
     CellRecord& cell = changed.emplace_back(record_of(tissue_, bodies[k]));
     const bool up = orders[k].to == BodyKind::kShell;
     const CellType& type = model_.types[cell.row.type];
-    const double had = volume_of(cell), as_shell = up ? volume_under_pressure(had, pressure[k], type) : had;
+    const double had = volume_of_body(cell), as_shell = up ? volume_under_pressure(had, pressure[k], type) : had;
     double later = 0.0;
     if (up) {
       if (may_stay) before.push_back(cell);
@@ -88,7 +85,7 @@ std::vector<Event> Simulation::swap_bodies() {
       demote(cell, type, tissue_.clock.time);
     }
     events.push_back({tissue_.clock.time, up ? EventKind::kPromotion : EventKind::kDemotion, cell.row.id, {}, {}, orders[k].reason});
-    const double as_sphere = (up ? had : volume_of(cell)) - watch.caps_of(cell.row.id);
+    const double as_sphere = (up ? had : volume_of_body(cell)) - watch.caps_of(cell.row.id);
     events.back().exchange =
         ExchangeEffect{.became_shell = up, .volume = had, .room = up ? as_shell - as_sphere : as_sphere - as_shell, .later = later};
   }

@@ -209,7 +209,7 @@ double promote(CellRecord& cell, const CellType& type, double pressure, double t
   const double to_come = (pressed - volume) * (ball / pressed);
   double reference = free_reference_volume(ball - to_come, type, deviation);
   if (type.osmosis.acts())
-    reference *= volume_beside_nucleus(type, ball, cell.row.target_volume) / ball * std::exp(pressure / type.shell.bulk_modulus);
+    reference *= volume_beside_resting_nucleus(type, ball, cell.row.target_volume) / ball * std::exp(pressure / type.shell.bulk_modulus);
   ShellRecord shell = spherical_shell(shapes.icosphere(type.shell_nodes).value(), sphere.position, volume, reference);
   shell.rest_volume = cell.row.target_volume;  // stress-free at the size of the cell, as in every step
   shell.rest_length = free_rest_lengths(*shell.shape, shell.rest_volume);
@@ -229,11 +229,9 @@ double promote(CellRecord& cell, const CellType& type, double pressure, double t
 
 void demote(CellRecord& cell, const CellType& type, double time) {
   const ShellRecord& shell = *cell.shell;
-  const auto faces = shell.shape->topology->faces();
   SphereRecord sphere;
-  sphere.position = volume_centroid(faces, shell.position);
-  if (type.osmosis.acts())
-    cell.row.reference_excess = std::log(enclosed_volume(faces, shell.position, sphere.position) / cell.row.target_volume);
+  sphere.position = cell.center();
+  if (type.osmosis.acts()) cell.row.reference_excess = std::log(volume_of(shell) / cell.row.target_volume);
   sphere.radius = ball_radius(cell.row.target_volume * std::exp(cell.row.reference_excess));
   for_each_shared_column(
       [&](const auto& of_nodes, const auto& of_sphere) { of_sphere.give(sphere, std::array{mean_of(of_nodes.values(shell))}); });

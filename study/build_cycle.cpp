@@ -95,10 +95,12 @@ void check_switch(BuildContext& c, const draft::CellType& t, const CellType& typ
 
 /// What is said of a cycle that cells do not have: W515.
 void tell_of_rest(BuildContext& c, const draft::CellType& t, const std::string& name) {
+  const auto tell = [&](const Place& place, const std::string& word) {
+    c.diagnostics.warning(515, place, "'" + word + "' has no effect here: cells of '" + name + "' rest",
+                          "another `model`, or leave it away (where it comes by `like`: `" + word + ": default`)");
+  };
   const auto idle = [&](const auto& key, const char* word) {
-    if (key.is_changed())
-      c.diagnostics.warning(515, key.place, "'" + std::string(word) + "' has no effect here: cells of '" + name + "' rest",
-                            "another `model`, or leave it away (where it comes by `like`: `" + std::string(word) + ": default`)");
+    if (key.is_changed()) tell(key.place, word);
   };
   idle(t.cycle_duration.mean, "duration");
   idle(t.growth, "growth");
@@ -108,9 +110,7 @@ void tell_of_rest(BuildContext& c, const draft::CellType& t, const std::string& 
   idle(t.division_share.mean, "share");
   idle(t.shells_divide, "shells");
   idle(t.new_surface, "new_surface");
-  if (t.cycle.has_arrest && !t.cycle.arrest.empty())
-    c.diagnostics.warning(515, t.cycle_model.place, "'arrest' has no effect here: cells of '" + name + "' rest",
-                          "another `model`, or leave it away (where it comes by `like`: `arrest: default`)");
+  if (t.cycle.has_arrest && !t.cycle.arrest.empty()) tell(t.cycle_model.place, "arrest");
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ CyclePhase build_phase(BuildContext& c, const Named<draft::CyclePhase>& item) {
   return out;
 }
 
-/// A phase that ends by size is the last in which cells grow, and there is one where size is controlled: E700, E702.
+/// A phase that ends by size is the last in which cells grow, and nothing holds it back but for G0; there is one where size is controlled: W515, E700, E702.
 void check_size_phase(BuildContext& c, const draft::CellType& t, const CellType& type) {
   const CellCycle& cycle = type.cycle;
   const std::vector<CyclePhase>& phases = cycle.phases;
@@ -59,6 +59,10 @@ void check_size_phase(BuildContext& c, const draft::CellType& t, const CellType&
     if (!cycle.growth->grows || p != last_growing_phase(cycle))
       c.diagnostics.error(702, place, "phase '" + phases[p].name + "' cannot end by size: it is not the last phase in which cells grow",
                           "`grows: false` in those behind it");
+    if (!phases[p].arrest.empty() && cycle.quiescence.phase != static_cast<int>(p))
+      c.diagnostics.warning(515, t.cycle.phases[p].place,
+                            "'arrest' of phase '" + phases[p].name + "' has no effect here: the phase ends by size, however long it takes",
+                            "`arrest` of the cycle holds growth back; `quiescence` takes cells of this phase to G0");
   }
   if (cycle.control != SizeControl::kTimer && !by_size)
     c.diagnostics.error(702, t.cycle.control.place, "no phase of '" + type.name + "' ends by size, so that size cannot be controlled",
@@ -116,15 +120,9 @@ void build_phases(BuildContext& c, const draft::CellType& t, CellType& type) {
   }
   for (const auto& item : t.cycle.phases) cycle.phases.push_back(build_phase(c, item));
   if (cycle.phases.empty()) cycle.phases = usual_phases();
+  build_quiescence(c, t.cycle, cycle);
   check_size_phase(c, t, type);
   if (paced_by_phases(cycle)) type.cycle_duration = whole_cycle(cycle.phases);
-  build_quiescence(c, t.cycle, cycle);
-  for (std::size_t p = 0; p < t.cycle.phases.size(); ++p)
-    if (cycle.phases[p].length == Length::kSize && !cycle.phases[p].arrest.empty() && cycle.quiescence.phase != static_cast<int>(p))
-      c.diagnostics.warning(
-          515, t.cycle.phases[p].place,
-          "'arrest' of phase '" + cycle.phases[p].name + "' has no effect here: the phase ends by size, however long it takes",
-          "`arrest` of the cycle holds growth back; `quiescence` takes cells of this phase to G0");
 }
 
 }  // namespace morula::scenarios

@@ -31,10 +31,8 @@ Vec3d pseudonormal(const Topology& topology, std::span<const Vec3d> position, st
   }
   const std::uint32_t node = faces[face][static_cast<std::size_t>(feature) - static_cast<std::size_t>(TriangleFeature::kVertex0)];
   Vec3d sum;
-  for (const std::uint32_t f : topology.faces_of_node(node)) {
-    const int corner = faces[f][0] == node ? 0 : faces[f][1] == node ? 1 : 2;
-    sum += unit_face_normal(faces[f], position) * corner_angle(faces[f], corner, position);
-  }
+  for (const std::uint32_t f : topology.faces_of_node(node))
+    sum += unit_face_normal(faces[f], position) * corner_angle(faces[f], corner_of(faces[f], node), position);
   return sum;
 }
 

@@ -82,7 +82,9 @@ void exchange_water(CellState& row, const CellType& type, double time, double dt
   const OsmoticCell cell = osmotic_cell(row, type, time, area, pressure);
   const double start = std::max(volume, cell.inactive + 1e-3 * (row.target_volume - cell.inactive));  // squeezed below V_b: water comes in
   const double end = volume_after_flux(cell, start, dt);
-  const auto with_body = [&](double v) { return row.body == BodyKind::kShell ? volume_beside_nucleus(type, v, row.target_volume) : v; };
+  const auto with_body = [&](double v) {
+    return row.body == BodyKind::kShell ? volume_beside_resting_nucleus(type, v, row.target_volume) : v;
+  };
   const double before = with_body(volume), after = with_body(end);
   row.reference_excess += std::log(before > 0.0 && after > 0.0 ? after / before : end / volume);
 }

@@ -5,7 +5,6 @@
 #include "coupling/loads/loads.h"
 
 namespace morula {
-namespace {
 
 Anchor on_center(Anchor spring, const Tissue& tissue, bool is_shell, std::size_t number) {
   const auto& first = tissue.shells.first_node;
@@ -13,6 +12,8 @@ Anchor on_center(Anchor spring, const Tissue& tissue, bool is_shell, std::size_t
   spring.shell = is_shell ? static_cast<int>(number) : -1;
   return spring;
 }
+
+namespace {
 
 /// Function(load number, anchor) for every spring of every load.
 template <class F>

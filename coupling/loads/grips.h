@@ -15,6 +15,9 @@ namespace morula {
 /// is stored: it follows from the study and the time.
 std::vector<Anchor> grip_anchors(const Model& model, const Tissue& tissue, double time);
 
+/// The spring, on the centre of a shell or a sphere of the rank, by its number among these.
+Anchor on_center(Anchor spring, const Tissue& tissue, bool is_shell, std::size_t number);
+
 /// Where what a spring holds is [µm].
 Vec3d held_place(const Anchor& anchor, const Tissue& tissue);
 /// Force of a spring on what it holds [nN].

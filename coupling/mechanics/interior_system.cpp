@@ -1,5 +1,7 @@
 #include "coupling/mechanics/interior_system.h"
 
+#include <algorithm>
+
 #include "core/parallel/threads.h"
 #include "dcm/interior_noise.h"
 
@@ -54,9 +56,8 @@ void InteriorSystem::evaluate(const World& world, Forces& out) {
 }
 
 dcm::InteriorEnergy InteriorSystem::of_shell(std::uint32_t shell) const {
-  for (const Item& item : items_)
-    if (item.shell == shell) return item.energy;
-  return {};
+  const auto found = std::ranges::lower_bound(items_, shell, {}, &Item::shell);
+  return found != items_.end() && found->shell == shell ? found->energy : dcm::InteriorEnergy{};
 }
 
 std::size_t InteriorSystem::memory() const {

@@ -38,12 +38,10 @@ double deepest_possible(const Tissue& tissue, std::span<const char> moves, const
 /// Springs that keep the middle of each shell that moves near to where it is, against adhesion that would draw it while nobody answers (decision 0088).
 std::vector<Anchor> middles_of(const Tissue& tissue, std::span<const char> moves, double stiffness) {
   std::vector<Anchor> out;
+  if (!(stiffness > 0.0)) return out;
   for (std::size_t i = 0; i < tissue.shells.size(); ++i) {
-    if (!moves[i] || !(stiffness > 0.0)) continue;
-    Anchor& middle = out.emplace_back();
-    middle.node = tissue.shells.first_node[i];
-    middle.shell = static_cast<int>(i);
-    middle.stiffness = stiffness;
+    if (!moves[i]) continue;
+    Anchor& middle = out.emplace_back(on_center({.stiffness = stiffness}, tissue, true, i));
     middle.target = held_place(middle, tissue);
   }
   return out;

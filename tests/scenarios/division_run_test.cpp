@@ -7,6 +7,7 @@
 #include "results/snapshot_file.h"
 #include "tests/scenarios/own_parts.h"
 #include "tests/scenarios/simulation_of.h"
+#include "tests/scenarios/snapshots_of_run.h"
 
 namespace morula::scenarios::test {
 namespace {
@@ -237,7 +238,7 @@ TEST_F(DivisionRun, KeepsTheVolumesOfDaughtersThatFollowTheirWaterBesideNuclei) 
 TEST_F(DivisionRun, FindsRoomForTheNucleusOfASmallDaughter) {
   // 30 % of a ball is a flat cap, in whose middle a nucleus of 25 % has no room. It ended the run, 0.67 um deep in its cell.
   std::string places;
-  for (int i = 0; i < 5; ++i) places += std::string(i > 0 ? ", " : "") + "[" + std::to_string(80 * i - 160) + " um, 0 um, 0 um]";
+  for (int i = 0; i < 5; ++i) places += (i > 0 ? ", " : "") + place_text({80.0 * i - 160.0, 0.0, 0.0});
   const std::string rigid = "dcm: {nodes: 162, nucleus: {kind: rigid, volume_fraction: 25 %}, cortex";
   std::string study = test::changed("dcm: {nodes: 162, cortex", rigid, one_shell("share: 30 %", "61 min"));
   study = test::changed("[[0 um, 0 um, 0 um]]", "[" + places + "]",
