@@ -145,8 +145,14 @@ void add_looking_verbs(CLI::App& program, Parsed& p) {
   verb->add_option("SUITE", p.verify.suite, "Which numbers (default: physics)")->check(CLI::IsMember(suite_names()))->type_name("NAME");
   CLI::Option* const list = verb->add_flag("--list", p.verify.list, "List the suites, or the references of one, and find nothing");
   verb->add_flag("--json", p.verify.json, "Print JSON: {suite, rows: [{id, quantity, reference, value, tolerance, passed, source}]}");
-  verb->add_flag("--studies", p.verify.studies, "Also run the single-cell experiments of the library (about half a minute)")
-      ->excludes(list);
+  CLI::Option* const studies =
+      verb->add_flag("--studies", p.verify.studies, "Also run the single-cell experiments of the library (about half a minute)")
+          ->excludes(list);
+  verb->add_option("--only", p.verify.only, "Find the numbers with this id only, as T4.1; may stand several times")
+      ->allow_extra_args(false)
+      ->excludes(list)
+      ->excludes(studies)
+      ->type_name("ID ...");
 
   verb = add_verb(program, "doctor", "Check what a run needs of this machine: MPI, HDF5, threads, disk, memory", "morula doctor",
                   "mpirun -n 4 morula doctor --json");

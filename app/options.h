@@ -84,7 +84,8 @@ struct VerifyOptions {
   std::string suite;  ///< a name of verify_suites(); empty: the first, or all to list
   bool list = false;
   bool json = false;
-  bool studies = false;  ///< also run the library's quick experiments
+  bool studies = false;           ///< also run the library's quick experiments
+  std::vector<std::string> only;  ///< ids of the numbers to find; empty: all
 };
 
 struct CalibrateOptions {

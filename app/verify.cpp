@@ -9,6 +9,7 @@
 #include "app/words.h"
 #include "core/numbers/number_text.h"
 #include "scenarios/verify/verify.h"
+#include "study/diagnostics.h"
 
 namespace morula::app {
 namespace fs = std::filesystem;
@@ -87,7 +88,13 @@ Status verify(const VerifyOptions& options, const Context& context) {
   }
   if (options.studies && suite.name != "physics")
     return Error{ErrorKind::kInput, "--studies belongs to the suite `physics`", "`morula verify physics --studies`"};
-  std::vector<VerifiedRow> rows = scenarios::verify(suite);
+  std::vector<std::string> ids;
+  for (const VerifiedRow& row : scenarios::rows_of(suite)) ids.push_back(row.id);
+  for (const std::string& id : options.only)
+    if (std::ranges::find(ids, id) == ids.end())
+      return Error{ErrorKind::kInput, "the suite `" + std::string(suite.name) + "` has no number '" + id + "'",
+                   scenarios::suggest(id, ids)};
+  std::vector<VerifiedRow> rows = scenarios::verify(suite, options.only);
   if (options.studies) {
     const Scratch scratch;
     MORULA_TRY_ASSIGN(const auto more, scenarios::verify_single_cell_studies(

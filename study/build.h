@@ -107,18 +107,18 @@ bool may_carry_mark(const BuildContext& context, int material, int mark);
 void check_places(BuildContext& context);
 /// Whether a shell resists being stretched in its plane by anything but its tension.
 bool resists_in_plane(const draft::ShellKeys& t);
-/// Whether cells of a type may be shells at some time.
+/// Whether cells of a type may be shells at some time: by the type, as they begin, by fates or by coupling; after build_initial().
 bool may_be_shell(const BuildContext& context, std::size_t type);
 /// The types whose cells this one may come of by the fates of daughters, itself first.
 std::vector<std::size_t> origins_of(const draft::Study& draft, std::size_t type);
 int find_field(BuildContext& context, const std::string& name, const Place& place);
-/// Whether any cell may have this body: by its type, by `as`, or by coupling.
-bool may_have_shells(const draft::Study& draft);
+/// Whether cells of any type may.
+bool may_have_shells(const BuildContext& context);
 /// Note a file the study refers to; `written` is replaced by the place of its copy, for the resolved study.
 std::string add_input_file(BuildContext& context, Given<std::string>& written);
 /// Read the closed surface of an STL or OBJ file, in µm, and check it: E601–E602 and E620–E624; then the mesh is empty.
 TriangleMesh surface_from_file(BuildContext& context, Given<std::string>& written, const Given<double>& scale);
 /// Largest explicit Euler step that is stable for the types of this study [s] (estimate).
-double explicit_step_limit(const Laws& laws, const draft::Study& draft);
+double explicit_step_limit(const BuildContext& context);
 
 }  // namespace morula::scenarios

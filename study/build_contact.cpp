@@ -116,7 +116,7 @@ void judge_values(BuildContext& c, const draft::ContactPair& pair, const Surface
 
 void build_contact_pairs(BuildContext& c) {
   const Given<std::string>& friction = c.draft.contact.friction;
-  if (friction.given && friction.value == "objective" && !may_have_shells(c.draft))
+  if (friction.given && friction.value == "objective" && !may_have_shells(c))
     c.diagnostics.warning(515, friction.place, "`friction: objective` is of surfaces, and all cells are always spheres: it has no effect",
                           "remove it: spheres do not turn");
   const std::size_t count = c.draft.cell_types.size() + c.draft.geometry.size();

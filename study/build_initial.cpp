@@ -156,7 +156,10 @@ class InitialBuilder {
       c_.diagnostics.error(515, d.units.place, "'units' has no effect here: all columns of '" + shown + "' have a unit of their own",
                            "leave it away, or take the units out of the header");
     cells.count = csv->cells.size();
-    d.csv_has_shells = std::ranges::any_of(csv->cells, [](const CsvCell& cell) { return cell.body == BodyKind::kShell; });
+    for (const CsvCell& cell : csv->cells) {
+      const BodyKind usual = cells.body_given ? cells.body : c_.study.model.types[cell.type].initial_body;
+      (cell.body.value_or(usual) == BodyKind::kShell ? cells.csv_shells : cells.csv_spheres).insert(cell.type);
+    }
     if (d.age.given && d.age.value == "birth" && std::ranges::all_of(csv->cells, [](const CsvCell& cell) { return cell.phase >= 0.0; }))
       c_.diagnostics.warning(515, d.age.place, "'age' has no effect here: all rows of '" + shown + "' have a `phase`",
                              "leave it away, or take the column out");

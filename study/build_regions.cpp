@@ -199,7 +199,7 @@ void build_lumens(BuildContext& c) {
       c.diagnostics.error(502, d.center.place, "the cavity '" + name + "' lies outside the domain", "a point between the cells");
     if (d.pressure.known() && lumen.keeps_solute && lumen.pressure <= 0.0)
       c.diagnostics.error(557, d.pressure.place, "a cavity that keeps its solute has a positive pressure", "for example `20 Pa`");
-    if (!may_have_shells(c.draft))
+    if (!may_have_shells(c))
       c.diagnostics.error(557, place, "the cavity '" + name + "' has no walls: no cell of this study is a shell",
                           "cells with `body: shell`");
     if (c.study.model.space.any_periodic())
@@ -249,17 +249,20 @@ std::vector<std::size_t> origins_of(const draft::Study& d, std::size_t type) {
 bool may_be_shell(const BuildContext& c, std::size_t type) {
   const draft::Study& d = c.draft;
   if (!d.coupling.triggers.empty()) return true;
-  if (std::ranges::any_of(d.initial, [](const auto& block) { return block.content.csv_has_shells; })) return true;
   for (const auto& region : d.coupling.regions)
     if (region.content.body.value == "shell") return true;
   for (const std::size_t origin : origins_of(d, type)) {
     if (d.cell_types[origin].content.body.value == "shell") return true;
-    const auto is_this = [&](const auto& share) { return share.name == d.cell_types[origin].name; };
-    for (const auto& initial : d.initial)
-      if (initial.content.body.value == "shell" && (initial.content.csv.given || initial.content.type.value == d.cell_types[origin].name ||
-                                                    std::ranges::any_of(initial.content.types, is_this)))
-        return true;
+    const BodyKind usual = c.study.model.types[origin].initial_body;
+    const auto begins_as_shell = [&](const InitialCells& cells) { return cells.may_begin_as(origin, BodyKind::kShell, usual); };
+    if (std::ranges::any_of(c.study.initial, begins_as_shell)) return true;
   }
+  return false;
+}
+
+bool may_have_shells(const BuildContext& c) {
+  for (std::size_t type = 0; type < c.draft.cell_types.size(); ++type)
+    if (may_be_shell(c, type)) return true;
   return false;
 }
 

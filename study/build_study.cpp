@@ -54,7 +54,7 @@ void build_box_course(BuildContext& c) {
 double skin_of(const BuildContext& c) {
   constexpr double kMostOfSpheres = 1.0, kOfRadius = 0.2;
   const double usual = ContactNumerics().skin;
-  if (may_have_shells(c.draft)) return usual;
+  if (may_have_shells(c)) return usual;
   double largest = 0.0;
   for (const auto& type : c.draft.cell_types) largest = std::max(largest, type.content.radius.mean.value);
   return std::clamp(kOfRadius * largest, usual, kMostOfSpheres);
@@ -83,10 +83,10 @@ void build_time_and_numerics(BuildContext& c) {
   step.start_cap = n.start_cap.value >= 0.0 ? n.start_cap.value : gentle_cap(c);
   constexpr double kMaxStep = 60.0;            // growing clusters of shells: the error at 60 s is below that of the mesh (measured)
   constexpr double kMaxStepOfSpheres = 120.0;  // growing spheres: the error at 120 s is below what single cells scatter (decision 0063)
-  const double implicit_max_step = may_have_shells(c.draft) ? kMaxStep : kMaxStepOfSpheres;
+  const double implicit_max_step = may_have_shells(c) ? kMaxStep : kMaxStepOfSpheres;
   step.max_step = time.step.value > 0.0 ? time.step.value : implicit_max_step;
   if (step.integrator == Integrator::kExplicitEuler) {
-    const double limit = explicit_step_limit(*c.options.laws, c.draft);
+    const double limit = explicit_step_limit(c);
     if (time.step.value == 0.0) step.max_step = std::min(implicit_max_step, 0.5 * limit);
     if (time.step.known() && time.step.value > limit)
       c.diagnostics.error(
@@ -197,16 +197,6 @@ int find_cells(BuildContext& c, const std::string& name, const Place& place) {
   for (const ObstacleSpec& obstacle : model.obstacles) names.push_back(obstacle.name);
   c.diagnostics.error(401, place, "there is no region before this one, cell type or obstacle '" + name + "'", suggest(name, names));
   return -1;
-}
-
-bool may_have_shells(const draft::Study& study) {
-  for (const auto& type : study.cell_types)
-    if (type.content.body.value == "shell") return true;
-  for (const auto& initial : study.initial)
-    if (initial.content.body.value == "shell" || initial.content.has_meshes || initial.content.csv_has_shells) return true;
-  for (const auto& region : study.coupling.regions)
-    if (region.content.body.value == "shell") return true;
-  return !study.coupling.triggers.empty();
 }
 
 std::string add_input_file(BuildContext& c, Given<std::string>& written) {

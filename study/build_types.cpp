@@ -160,7 +160,7 @@ void set_sphere_law(BuildContext& c, const draft::CellType& t, cbm::SphereParame
 }
 
 /// In what cells of a type differ: E515.
-void set_variation(BuildContext& c, const draft::CellType& t, std::size_t number, CellType& type) {
+void set_variation(BuildContext& c, const draft::CellType& t, CellType& type) {
   const auto tell = [&](const Given<double>& key, const char* name, const std::string& why) {
     c.diagnostics.error(515, key.place, "'" + std::string(name) + "' has no effect here", why);
   };
@@ -171,9 +171,7 @@ void set_variation(BuildContext& c, const draft::CellType& t, std::size_t number
       tell(given.correlation, "correlation", "give `spread`: all cells of the type are alike without one");
   }
   const draft::Spread &tension = t.variation[number_of(Trait::kTension)], &stiffness = t.variation[number_of(Trait::kStiffness)];
-  if (tension.spread.value > 0.0 && !may_be_shell(c, number))
-    tell(tension.spread, "spread", "cells of '" + type.name + "' are always spheres, which have no tension: `body: shell`");
-  else if (tension.spread.value > 0.0 && t.tension.known() && t.tension.value == 0.0)
+  if (tension.spread.value > 0.0 && t.tension.known() && t.tension.value == 0.0)
     tell(tension.spread, "spread", "give `dcm.cortex.tension`");
   const auto& parameters = type.sphere.law->info.parameters;
   const bool elastic = std::ranges::any_of(parameters, [](const LawParameter& one) { return one.name == "young"; });
@@ -207,7 +205,7 @@ void build_cell_types(BuildContext& c) {
     cbm::PackingCurve packing = build_packing(c, name, t);
     if (type.sphere.packing.empty()) type.sphere.packing = std::move(packing);
     type.shell = build_shell(c, name, t, t.friction_medium.value);
-    set_variation(c, t, c.study.model.types.size(), type);
+    set_variation(c, t, type);
     type.interior = build_interior(c, t, name);
     type.self_contact = build_self_contact(c, t);
     type.renew_mesh_below = build_mesh_renewal(c, t, type);
@@ -242,9 +240,9 @@ void build_pairs(BuildContext& c) {
       pairs[i * materials + j] = pairs[j * materials + i] = {table.at(i, j).value, friction, tangential};
     }
   }
-  if (!may_have_shells(c.draft)) return;
   for (std::size_t i = 0; i < types; ++i) {
     for (std::size_t j = i; j < materials; ++j) {
+      if (!may_be_shell(c, i) || (j < types && !may_be_shell(c, j))) continue;
       const draft::CellType& a = c.draft.cell_types[i].content;
       const draft::CellType& b = j < types ? c.draft.cell_types[j].content : a;
       const Given<double>& w = table.at(i, j);

@@ -94,15 +94,22 @@ bool may_be_sphere(const BuildContext& c, std::size_t type) {
   if (std::ranges::any_of(d.coupling.regions, [](const auto& r) { return r.content.body.value == "sphere"; })) return true;
   for (const std::size_t origin : origins_of(d, type)) {
     if (origin != type && d.cell_types[type].content.body.value != "shell") return true;  // daughters take the body of their type
-    const std::string& name = d.cell_types[origin].name;
-    for (const auto& block : d.initial) {
-      const draft::Initial& b = block.content;
-      const bool is_of_it = b.type.value == name || std::ranges::any_of(b.types, [&](const auto& share) { return share.name == name; });
-      if (b.has_meshes || (!b.csv.given && !is_of_it)) continue;
-      if ((b.body.known() && !b.body.value.empty() ? b.body.value : d.cell_types[origin].content.body.value) != "shell") return true;
-    }
+    const BodyKind usual = c.study.model.types[origin].initial_body;
+    const auto begins_as_sphere = [&](const InitialCells& cells) { return cells.may_begin_as(origin, BodyKind::kSphere, usual); };
+    if (std::ranges::any_of(c.study.initial, begins_as_sphere)) return true;
   }
   return false;
+}
+
+/// What spheres have not, and a cell differs from another by: E515.
+void check_tension_of_spheres(BuildContext& c) {
+  for (std::size_t i = 0; i < c.draft.cell_types.size(); ++i) {
+    const auto& [name, place, t] = c.draft.cell_types[i];
+    const Given<double>& spread = t.variation[number_of(Trait::kTension)].spread;
+    if (spread.value > 0.0 && !may_be_shell(c, i))
+      c.diagnostics.error(515, spread.place, "'spread' has no effect here",
+                          "cells of '" + name + "' are always spheres, which have no tension: `body: shell`");
+  }
 }
 
 /// A law that was found from shells has its own range, and its spheres rest like shells.
@@ -239,6 +246,7 @@ void check_ways_of_spheres(BuildContext& c) {
 
 void check_bodies(BuildContext& c) {
   check_named_cells(c);
+  check_tension_of_spheres(c);
   if (c.diagnostics.has_errors()) return;  // what a wrong study would be like is not worth a warning
   check_division_of_shells(c);
   check_mesh_of_divisions(c);

@@ -28,14 +28,13 @@ std::uint64_t cells_of_type(const draft::Study& study, const std::string& type) 
 
 /// Many cells that adhere nearly as much as their tension allows fold at triple lines, and a fine mesh cannot pass over the folds.
 void check_strong_adhesion(BuildContext& c) {
-  if (!may_have_shells(c.draft)) return;
   const auto drop = [&](std::size_t i) {
     const CellType& type = c.study.model.types[i];
     return type.regional_tension.drop_in_contact(type.shell.tension, 0.0);
   };
   for (std::size_t i = 0; i < c.draft.cell_types.size(); ++i) {
     const auto& [name, place, t] = c.draft.cell_types[i];
-    if (!t.nodes.known() || t.nodes.value < kFineNodes || !t.tension.known() || !(t.tension.value > 0.0)) continue;
+    if (!may_be_shell(c, i) || !t.nodes.known() || t.nodes.value < kFineNodes || !t.tension.known() || !(t.tension.value > 0.0)) continue;
     for (const auto& sticks : t.adhesion) {
       const auto other =
           std::find_if(c.draft.cell_types.begin(), c.draft.cell_types.end(), [&](const auto& type) { return type.name == sticks.name; });
@@ -83,8 +82,9 @@ void check_noise(BuildContext& c) {
 
 /// Under the pressure 2γ/R the volume shrinks, and that pressure rises: with K < 2γ/(3R) nothing stops it.
 void check_bulk(BuildContext& c) {
-  if (!may_have_shells(c.draft)) return;
-  for (const auto& [name, place, t] : c.draft.cell_types) {
+  for (std::size_t i = 0; i < c.draft.cell_types.size(); ++i) {
+    const auto& [name, place, t] = c.draft.cell_types[i];
+    if (!may_be_shell(c, i)) continue;
     if (!t.bulk_modulus.known() || !t.tension.known() || !t.radius.mean.known() || !(t.radius.mean.value > 0.0)) continue;
     if (!(t.bulk_modulus.value > 0.0)) continue;
     const double least = 2.0 * t.tension.value / (3.0 * t.radius.mean.value);

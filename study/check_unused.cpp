@@ -1,5 +1,6 @@
 // What the study says and nothing in it reads.
 #include <algorithm>
+#include <ranges>
 #include <set>
 #include <tuple>
 
@@ -21,6 +22,9 @@ void check_shells_that_are_none(BuildContext& c) {
   const auto keys = [&c](draft::CellType& type) {
     auto out = keys_written_in(*c.options.laws, [&type](Section& s) { declare_shell(s, type); });
     std::erase_if(out, [](const GivenKey& key) { return key.path == "bulk_modulus"; });  // modulus and packing of spheres follow from it
+    for (GivenKey& key : out) key.path.insert(0, "dcm.");
+    if (type.shells_divide.is_changed()) out.push_back({"cycle.shells", type.shells_divide.place});
+    if (type.new_surface.is_changed()) out.push_back({"cycle.new_surface", type.new_surface.place});
     return out;
   };
   const bool has_meshes = std::ranges::any_of(c.draft.initial, [](const auto& block) { return block.content.has_meshes; });
@@ -37,10 +41,25 @@ void check_shells_that_are_none(BuildContext& c) {
     std::erase_if(given, [&](const GivenKey& key) { return used.contains(spot(key.place)); });
     if (given.empty()) continue;
     const std::string others = given.size() > 1 ? " (and " + std::to_string(given.size() - 1) + " more)" : "";
-    tell(c, given.front().place,
-         "`dcm." + given.front().path + "`" + others + " is of shells, and cells of '" + name + "' are always spheres",
+    tell(c, given.front().place, "`" + given.front().path + "`" + others + " is of shells, and cells of '" + name + "' are always spheres",
          "`body: shell`, or a rule of `coupling`; `body: sphere` where it is meant so");
     for (const GivenKey& key : given) used.insert(spot(key.place));  // types that are like this one say nothing more
+  }
+}
+
+/// What holds growth back, and the age of cells, where nobody grows. Who writes a cycle of `model: none` knows.
+void check_rest(BuildContext& c) {
+  const std::size_t types = c.draft.cell_types.size();
+  for (const auto& [name, place, type] : c.draft.cell_types)
+    if (!type.has_cycle && type.pressure_above.is_changed())
+      tell(c, type.pressure_above.place, "'inhibit_growth' is of cells that grow, and those of '" + name + "' have no cycle",
+           "give them a `cycle`");
+  for (std::size_t k = 0; k < c.study.initial.size(); ++k) {
+    const InitialCells& cells = c.study.initial[k];
+    const auto grows_among_them = [&](std::size_t i) { return c.draft.cell_types[i].content.has_cycle && cells.may_have(i); };
+    const Given<std::string>& age = c.draft.initial[k].content.age;
+    if (age.is_changed() && std::ranges::none_of(std::views::iota(std::size_t{0}, types), grows_among_them))
+      tell(c, age.place, "'age' is of cells with a cycle, and none of these has one", "give them a `cycle`");
   }
 }
 
@@ -63,7 +82,7 @@ void check_exchange(BuildContext& c) {
 
 /// What the contacts of surfaces have, where there are none.
 void check_contact(BuildContext& c) {
-  if (may_have_shells(c.draft)) return;
+  if (may_have_shells(c)) return;
   const draft::Contact& d = c.draft.contact;
   const auto warn = [&c](const Place& place, const char* key) {
     tell(c, place, std::string("'") + key + "' is of surfaces, and all cells are always spheres",
@@ -94,6 +113,7 @@ void check_marks(BuildContext& c) {
 
 void check_unused(BuildContext& c) {
   check_shells_that_are_none(c);
+  check_rest(c);
   check_exchange(c);
   check_contact(c);
   check_marks(c);

@@ -84,7 +84,7 @@ void check_range(BuildContext& c, const Given<double>& range, const std::vector<
 }
 
 void check_contact_ranges(BuildContext& c) {
-  if (!may_have_shells(c.draft)) return;
+  if (!may_have_shells(c)) return;
   check_range(c, c.draft.contact.range, {}, "contact.range");
   for (const auto& pair : c.draft.contact.pairs)
     if (pair.content.range.given && pair.content.between.known()) check_range(c, pair.content.range, pair.content.between.value, "range");
@@ -189,6 +189,23 @@ void check_periodic_obstacles(BuildContext& c) {
   }
 }
 
+/// Names of things make names of columns, which may be those of others: E112 at the thing.
+void check_columns(BuildContext& c, const std::vector<std::string>& columns) {
+  std::set<std::string> seen;
+  const auto tell = [&c](const auto& things, const std::string& column) {
+    for (const auto& thing : things)
+      if (column.ends_with("_" + thing.name))
+        c.diagnostics.error(112, thing.place, "'" + thing.name + "' would make a second column '" + column + "'", "take another name");
+  };
+  for (const std::string& column : columns) {
+    if (seen.insert(column).second) continue;
+    tell(c.draft.fields, column);
+    tell(c.draft.cell_types, column);
+    tell(c.draft.lumens, column);
+    tell(c.draft.geometry, column);
+  }
+}
+
 void check_names(BuildContext& c) {
   const auto check_reserved = [&c](const auto& things) {
     for (const auto& thing : things)
@@ -218,6 +235,7 @@ void check_names(BuildContext& c) {
   if (c.diagnostics.has_errors()) return;  // which observables there are depends on what the model has
   const auto& series = c.draft.output.series;
   const std::vector<std::string> known = observable_names(c.study.model, *c.options.laws);
+  check_columns(c, known);
   std::set<std::string> named;
   for (const std::string& name : series.value) {
     check_known(name, series.place, known, "observable");
@@ -292,14 +310,15 @@ double nucleus_limit(const Laws& laws, const draft::CellType& t, double repulsio
 
 }  // namespace
 
-double explicit_step_limit(const Laws& laws, const draft::Study& study) {
+double explicit_step_limit(const BuildContext& c) {
+  const Laws& laws = *c.options.laws;
+  const draft::Study& study = c.draft;
   double limit = 1e300;
-  const bool shells = may_have_shells(study);
-  for (const auto& type : study.cell_types) {
-    const draft::CellType& t = type.content;
+  for (std::size_t type = 0; type < study.cell_types.size(); ++type) {
+    const draft::CellType& t = study.cell_types[type].content;
     const double friction = t.friction_medium.value, radius = t.radius.mean.value;
     if (!(friction > 0.0) || !(radius > 0.0)) continue;
-    if (shells && t.bulk_modulus.value > 0.0 && mean_edge(t.nodes.value) > 0.0) {
+    if (may_be_shell(c, type) && t.bulk_modulus.value > 0.0 && mean_edge(t.nodes.value) > 0.0) {
       // Fastest modes of a free shell of N nodes: the volume, stiffness K A²/(V N) against γ A/N for each node; the membrane; tension and
       // bending; the repulsion, k_r against the contact friction.
       const double node_area = ball_surface(radius) / std::max(1.0, static_cast<double>(t.nodes.value));

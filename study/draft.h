@@ -228,7 +228,6 @@ struct Initial {
   Given<std::vector<Vec3d>> at;
   Given<std::string> age;
   Given<std::string> csv, units;
-  bool csv_has_shells = false;  ///< some row of the table makes its cell a shell
   Given<double> coincident_shift, coincident_below;
   bool has_hull = false, has_cavity = false;
   Given<double> hull_margin, cavity_radius;

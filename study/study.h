@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -58,10 +59,11 @@ struct InitialCells {
   bool random_age = true;        ///< each cell at a random point of its cycle, else at birth
 
   // csv: x,y,z,type[,radius,phase,model]; read with read_cells_csv (csv.h)
-  std::string csv_path;            ///< absolute
-  std::string csv_unit;            ///< of lengths whose column has none; empty: all have
-  double coincident_shift = 6.0;   ///< coincident cells are moved apart by this distance and named [µm]
-  double coincident_below = 1e-3;  ///< closer than this counts as coincident [µm]
+  std::string csv_path;                           ///< absolute
+  std::string csv_unit;                           ///< of lengths whose column has none; empty: all have
+  double coincident_shift = 6.0;                  ///< coincident cells are moved apart by this distance and named [µm]
+  double coincident_below = 1e-3;                 ///< closer than this counts as coincident [µm]
+  std::set<std::size_t> csv_spheres, csv_shells;  ///< the types of the rows, by the body that their cells begin with
   std::vector<double> room;  ///< volume of each cell, its part of the hull of all places, by row; empty: as its type or its row says [µm³]
   Vec3d cavity_center{};     ///< of the ball that is no cell's room [µm]
   double cavity_radius = 0.0;  ///< 0: none [µm]
@@ -82,12 +84,18 @@ struct InitialCells {
 
   /// Whether cells of this type may be among them.
   [[nodiscard]] bool may_have(std::size_t of_type) const {
-    if (source == Source::kCsv) return true;
+    if (source == Source::kCsv) return csv_spheres.contains(of_type) || csv_shells.contains(of_type);
     for (const Share& share : mixture)
       if (share.type == of_type) return true;
     if (source == Source::kMeshes && !meshes.types.empty())
       return std::find(meshes.types.begin(), meshes.types.end(), of_type) != meshes.types.end();
     return mixture.empty() && type == of_type;
+  }
+
+  /// Whether cells of this type among them may begin with this body; `usual` is that of the type.
+  [[nodiscard]] bool may_begin_as(std::size_t of_type, BodyKind of_body, BodyKind usual) const {
+    if (source == Source::kCsv) return (of_body == BodyKind::kShell ? csv_shells : csv_spheres).contains(of_type);
+    return may_have(of_type) && (body_given ? body : usual) == of_body;
   }
 };
 

@@ -276,7 +276,8 @@ std::vector<UsedLaw> used_laws(const Study& study) {
     if (!model.swaps.triggers.empty() || model.swaps.by_fate) bodies[t] = {true, true};
     for (const Region& region : model.swaps.regions) may_be(t, region.body);
     for (const InitialCells& block : study.initial)
-      if (block.may_have(t)) may_be(t, block.body_given ? block.body : model.types[t].initial_body);
+      for (const BodyKind body : {BodyKind::kSphere, BodyKind::kShell})
+        if (block.may_begin_as(t, body, model.types[t].initial_body)) may_be(t, body);
     if (!bodies[t].shell && !bodies[t].sphere) may_be(t, model.types[t].initial_body);  // of daughters
   }
   std::vector<UsedLaw> out;

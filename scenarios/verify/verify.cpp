@@ -1,5 +1,6 @@
 #include "scenarios/verify/verify.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/numbers/number_text.h"
@@ -36,9 +37,10 @@ std::vector<VerifiedRow> rows_of(const VerifySuite& suite) {
   return out;
 }
 
-std::vector<VerifiedRow> verify(const VerifySuite& suite) {
+std::vector<VerifiedRow> verify(const VerifySuite& suite, const std::vector<std::string>& only) {
   std::vector<VerifiedRow> out;
   for (const ReferenceNumber& number : suite.numbers()) {
+    if (!only.empty() && std::ranges::find(only, number.id) == only.end()) continue;
     VerifiedRow& row = out.emplace_back(row_of(number));
     row.value = number.compute();
     row.passed = std::abs(row.value - number.reference) <= std::stod(row.tolerance);

@@ -22,8 +22,8 @@ struct VerifiedRow {
 
 /// The numbers of a suite that are to be found, without ours.
 std::vector<VerifiedRow> rows_of(const VerifySuite& suite);
-/// The numbers of a suite, each found and compared.
-std::vector<VerifiedRow> verify(const VerifySuite& suite);
+/// The numbers of a suite, each found and compared; those with one of these ids where any are given.
+std::vector<VerifiedRow> verify(const VerifySuite& suite, const std::vector<std::string>& only = {});
 
 /// The single-cell experiments of the library in their quick version, run below `folder`, one row for each of their criteria; `tell` is
 /// called with the name of each study before it runs. Takes about half a minute.

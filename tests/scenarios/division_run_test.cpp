@@ -309,9 +309,9 @@ TEST_F(DivisionRun, SheetsOfAnyLawDivideAgainAndAgain) {
   for (const char* law : {"neo_hooke", "skalak", "springs_with_area"}) {
     run_whole(std::string(R"(schema: 1
 study: sheets
-time: {end: 40 h, output: 20 h}
+time: {end: 20 h, output: 10 h}
 domain: {size: [100 um, 100 um, 100 um]}
-cell_types: {c: {radius: 6 um, body: shell, cycle: {duration: 18 h}, adhesion: {c: 0.05 mJ/m^2}, dcm: {cortex: {elastic: )") +
+cell_types: {c: {radius: 6 um, body: shell, cycle: {duration: 9 h}, adhesion: {c: 0.05 mJ/m^2}, dcm: {cortex: {elastic: )") +
                   law + R"(}}}}
 initial: [{type: c, at: [[0 um, 0 um, 0 um]]}]
 output: {report: false}

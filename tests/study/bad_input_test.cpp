@@ -117,6 +117,8 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"TwoSources", "count: 400, ", "count: 400, csv: a.csv, ", "[E111]"},
         Case{"TwoShapes", "{sphere: {radius: 150 um}", "{box: {size: [1 um, 1 um, 1 um]}, sphere: {radius: 150 um}",
              "more than one shape [E111]"},
+        Case{"FieldThatMakesAColumnOfAnother", "fields:\n", "fields:\n  contact_area: {diffusion: 1e-9 m^2/s, initial: 1 mM}\n",
+             "'contact_area' would make a second column 'mean_contact_area' [E112]"},
         Case{"TypeAndObstacle", "geometry:\n  capsule", "geometry:\n  hepatocyte", "'hepatocyte' is a cell type and an obstacle [E112]"},
         Case{"MissingStl", "{sphere: {radius: 150 um}", "{stl: mesh/none.stl", "file 'mesh/none.stl' does not exist [E601]"},
         Case{"MissingCsv", "{type: hepatocyte, count: 400, fill: sphere, radius: 60 um, as: cbm}", "{csv: none.csv}",

@@ -1,6 +1,7 @@
 // Keys that a study gives and nothing in it reads.
 #include <gmock/gmock.h>
 
+#include "scenarios/run/used_laws.h"
 #include "tests/study/study_fixture.h"
 
 namespace morula::scenarios::test {
@@ -11,7 +12,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 std::string study_of(const std::string& types, const std::string& more = "",
-                     const std::string& cells = "{type: a, at: [[0 um, 0 um, 0 um]], age: birth}") {
+                     const std::string& cells = "{type: a, at: [[0 um, 0 um, 0 um]]}") {
   return R"(schema: 1
 study: unused
 time: {end: 1 h, output: 1 h, checkpoint: 1 h}
@@ -57,6 +58,52 @@ TEST(UnusedKeys, OfShellsThatATableMakes) {
   };
   EXPECT_THAT(told("sphere"), AllOf(HasSubstr("always spheres"), HasSubstr("'repulsion' is of surfaces")));
   EXPECT_THAT(told("shell"), Not(HasSubstr("no effect")));
+}
+
+/// A table knows of each type which bodies its cells have: what is of shells only counts where they are, and nobody else is told of them.
+TEST(UnusedKeys, OfTypesOfWhichATableMakesNoShell) {
+  const std::string table = "x [um],y [um],z [um],type,model\n0,0,0,a,sphere\n30,0,0,b,\n-30,0,0,b,shell\n";
+  const std::string told = told_of_table(table, "{a: {dcm: {cortex: {tension: 0.2 mN/m}}}, b: {dcm: {cortex: {tension: 0.2 mN/m}}}}");
+  EXPECT_THAT(told, HasSubstr("`dcm.cortex.tension` is of shells, and cells of 'a' are always spheres"));
+  EXPECT_THAT(told, Not(HasSubstr("cells of 'b' are always spheres")));
+  EXPECT_THAT(told, HasSubstr("two spheres of 'b' rest"));
+  EXPECT_THAT(told, Not(HasSubstr("two spheres of 'a' rest")));
+  const Folder folder;
+  folder.write("cells.csv", table);
+  const auto study = read(study_of("{a: {}, b: {}}", "", "{csv: cells.csv}"), {}, folder.path());
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  std::string methods;
+  for (const UsedLaw& one : used_laws(*study)) methods += one.purpose + "\n";
+  EXPECT_THAT(methods, HasSubstr("shell of b"));
+  EXPECT_THAT(methods, Not(HasSubstr("shell of a")));
+  // A cortex that would spread on its like is of those that have one.
+  const std::string soft = "cortex: {elastic: none, tension: 0.1 mN/m}}}";
+  EXPECT_THAT(told_of_table(table, "{a: {adhesion: {a: 3e-4 J/m^2}, dcm: {" + soft + ", b: {}}"), Not(HasSubstr("[E509]")));
+  EXPECT_THAT(told_of_table(table, "{a: {}, b: {adhesion: {b: 3e-4 J/m^2}, dcm: {" + soft + "}"), HasSubstr("[E509]"));
+}
+
+TEST(UnusedKeys, SpreadOfTheTensionOfSpheres) {
+  const std::string types = "{a: {variation: {tension: 10 %}}}", header = "x [um],y [um],z [um],type,model\n";
+  EXPECT_THAT(told_of_table(header + "0,0,0,a,sphere\n", types), HasSubstr("cells of 'a' are always spheres, which have no tension"));
+  EXPECT_EQ(told_of_table(header + "0,0,0,a,shell\n", types), "");
+}
+
+TEST(UnusedKeys, OfDivisionsOfShellsWhereNobodyMakesOne) {
+  EXPECT_THAT(warnings("{a: {cycle: {shells: wait}}}"), HasSubstr("`cycle.shells` is of shells, and cells of 'a' are always spheres"));
+  EXPECT_THAT(warnings("{a: {cycle: {new_surface: 1 min}}}"), HasSubstr("`cycle.new_surface` is of shells"));
+  EXPECT_THAT(warnings("{a: {body: shell, cycle: {new_surface: 1 min}}}"), Not(HasSubstr("is of shells")));
+}
+
+TEST(UnusedKeys, OfGrowthAndAgeWhereNobodyGrows) {
+  EXPECT_THAT(warnings("{a: {inhibit_growth: {pressure_above: 800 Pa}}}"),
+              HasSubstr("'inhibit_growth' is of cells that grow, and those of 'a' have no cycle: it has no effect"));
+  EXPECT_THAT(warnings("{a: {cycle: {}, inhibit_growth: {pressure_above: 800 Pa}}}"), Not(HasSubstr("'inhibit_growth'")));
+  const auto of_age = [](const std::string& types) {
+    return warnings_of(study_of(types, "", "{type: a, at: [[0 um, 0 um, 0 um]], age: birth}"));
+  };
+  EXPECT_THAT(of_age("{a: {}}"), HasSubstr("'age' is of cells with a cycle, and none of these has one"));
+  EXPECT_THAT(of_age("{a: {}, b: {cycle: {}}}"), HasSubstr("'age' is of cells")) << "which are not among them";
+  EXPECT_THAT(of_age("{a: {cycle: {}}}"), Not(HasSubstr("'age'")));
 }
 
 /// Daughters that become another body are exchanges, too.
