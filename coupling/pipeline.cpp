@@ -56,7 +56,10 @@ Error refused(const Model& model, const Tissue& tissue, const StepFault& here, d
               (both_bodies && std::ranges::any_of(model.types, is_fluid)
                    ? "an elastic cortex (`elastic: springs`) where shells are pressed among spheres, "
                    : "") +
-              "weaker adhesion, more tension, `self_contact` where cells are pressed thin, a larger `shape_stiffness` or `fold_barrier`, "
+              (std::ranges::any_of(model.types, [](const CellType& type) { return type.self_contact == 0.0; })
+                   ? "`self_contact: auto` where cells are pressed thin, "
+                   : "") +
+              "weaker adhesion, more tension, a larger `shape_stiffness` or `fold_barrier`, "
               "or another number of nodes may help"};
 }
 

@@ -141,6 +141,10 @@ double build_self_contact(BuildContext& c, const draft::CellType& t) {
   const double faces = 2.0 * static_cast<double>(t.nodes.value) - 4.0;
   const double even = 4.0 * t.radius.mean.value * std::sqrt(std::numbers::pi / (std::numbers::sqrt3 * faces));
   const double edge = t.own_mesh.value ? OwnMeshLimits{}.finest * even : even;  // a mesh of its own is finer where the surface is curved
+  if (t.self_contact.value < 0.0) {
+    const bool has_meshes = std::ranges::any_of(c.draft.initial, [](const auto& block) { return block.content.has_meshes; });
+    return has_meshes ? 0.0 : 0.25 * edge;  // a mesh that comes with the study may be much finer than the type's
+  }
   if (t.self_contact.value <= 0.5 * edge) return t.self_contact.value;
   c.diagnostics.error(582, t.self_contact.place,
                       "a self-contact at " + t.self_contact.text + " reaches the neighbouring faces: edges of " + t.nodes.text +

@@ -14,8 +14,12 @@ namespace morula::scenarios {
 namespace {
 
 constexpr std::array<const char*, 2> kOfShells{"dcm", "osmosis"};
-/// A key of these that says how a mesh follows its surface, not what the surface is made of.
-constexpr const char* kNoMaterial = "own_mesh";
+/// Keys of these that say how a mesh follows its surface, not what the surface is made of.
+constexpr std::array<const char*, 2> kNoMaterial{"own_mesh", "self_contact"};
+
+void leave_material(Node& section) {
+  std::erase_if(section.entries, [](const Node::Entry& e) { return std::ranges::find(kNoMaterial, e.key) != kNoMaterial.end(); });
+}
 
 /// A part of a document in one line.
 std::string flow(const Node& node) {
@@ -95,7 +99,9 @@ std::string first_difference(const std::string& here, const std::string& there) 
   if (here == there) return "";
   Diagnostics ignored;
   const auto parsed = [&](const std::string& text) {
-    return parse_document(std::make_shared<SourceText>(SourceText("material", text)), ignored);
+    Node out = parse_document(std::make_shared<SourceText>(SourceText("material", text)), ignored);
+    for (Node::Entry& entry : out.entries) leave_material(entry.value);  // files of before have such keys
+    return out;
   };
   const std::string found = difference(parsed(here), parsed(there), "");
   return found;
@@ -128,7 +134,7 @@ Result<CellMaterial> material_of(const Study& study, const std::string& name) {
     const Node* found_part = type->find(section);
     if (found_part == nullptr) continue;
     Node part = *found_part;
-    std::erase_if(part.entries, [](const Node::Entry& e) { return e.key == kNoMaterial; });
+    leave_material(part);
     out.shell += (out.shell.empty() ? "" : ", ") + std::string(section) + ": " + flow(part);
   }
   return out;

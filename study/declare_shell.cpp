@@ -165,17 +165,17 @@ void declare_shell_keys(Section& s, draft::ShellKeys& t, draft::CellType* cell) 
   s.quantity(keys::shape_stiffness(), t.shape_stiffness);
   if (cell != nullptr) {
     s.quantity({.name = "self_contact",
-                .doc = "Distance at which a surface touches other parts of itself, from inside or outside, such as the thickness of its "
-                       "cortex; at most half of "
-                       "an edge of its mesh. `off`: it passes through itself.",
+                .doc = "Distance at which a surface touches other parts of itself, from inside or outside; at most half of "
+                       "an edge of its mesh. `auto`: a quarter of an edge (`off` in studies with cells from `meshes`). `off`: it passes "
+                       "through itself.",
                 .quantity = Q::kLength,
-                .fallback = "off",
+                .fallback = "auto",
                 .low = 0.0,
                 .high = 5.0,
                 .low_open = true,
-                .specials = {{"off", 0.0}},
+                .specials = {{"auto", -1.0}, {"off", 0.0}},
                 .example = "200 nm",
-                .source = "chosen: off; cells under pressure do not fold"},
+                .source = "decision 0089: shells that spheres press thin pass through themselves without"},
                cell->self_contact);
     s.quantity({.name = "renew_mesh_below",
                 .doc = "The nodes of a shell are spread evenly along its surface, its volume kept, when the quality of a face, 4 sqrt(3) "

@@ -9,6 +9,8 @@
 
 namespace morula {
 
+struct PairBody;
+
 // A surface against itself. Two sheets of one shell meet with their inner or with their outer sides, and from where they are alone nobody can say
 // whether they have yet to touch or are already through: what is a gap for the one case is a depth for the other. So the law acts on the unsigned
 // distance: the gap of the pair is |g| − d, with the distance d at which sheets of finite thickness touch, and the repulsion holds them apart before
@@ -23,6 +25,12 @@ inline int self_contact_rings(std::uint32_t face_count, double radius, double re
   const double edge = 4.0 * radius * std::sqrt(std::numbers::pi / (std::numbers::sqrt3 * face_count));
   return std::max(1, static_cast<int>(std::ceil(reach / (0.5 * edge))));
 }
+
+/// Whether parts of a surface that are at least `rings` edges from each other along it may be nearer to each other than `reach` [µm]; a test that
+/// is quick, and says yes where it does not know. A surface that is seen whole from its middle, at distances up to R, and whose faces lie in
+/// planes at least h from there: two of its points that are e < h apart are seen at an angle of at most 2 asin(e/2h), and a way along the surface between
+/// the directions is no longer than R²/h times that; each edge on the way costs the height of a face.
+bool may_meet_itself(const PairBody& body, double reach, int rings);
 
 /// Marks the nodes that are less than `rings` edges from a node of a face.
 class NodesAround {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/contact/surface_pair.h"
 #include "core/random/philox.h"
 #include "tests/coupling/energy_gradient.h"
 #include "tests/coupling/tissue_fixture.h"
@@ -114,6 +115,49 @@ TEST(SelfContact, StopsTheSheetsOfAPressedCellBeforeTheyMeet) {
   EXPECT_GT(apart, 0.8 * kTouch);
   EXPECT_LT(apart, 1.2);
   EXPECT_LT(pressed(0.0, crossings), -1.0) << "without it they pass through each other";
+}
+
+/// Whether a node of some face is nearer than `reach` to one of another that is not within `rings` edges.
+bool meets_itself(const PairBody& body, double reach, int rings) {
+  NodesAround around(*body.topology);
+  for (std::uint32_t f = 0; f < body.topology->face_count(); ++f) {
+    around.find(f, rings);
+    for (std::uint32_t g = 0; g < body.topology->face_count(); ++g) {
+      if (around.touch(g)) continue;
+      for (const std::uint32_t a : body.topology->faces()[f])
+        for (const std::uint32_t b : body.topology->faces()[g])
+          if (norm(body.node(a) - body.node(b)) < reach) return true;
+    }
+  }
+  return false;
+}
+
+/// The quick test may not know, but never says that surfaces are apart that are not; of cells as they are in tissues it knows.
+TEST(SelfContact, IsLookedForOnlyWhereItMayBe) {
+  ShapeLibrary shapes;
+  const auto shape = shapes.icosphere(162).value();
+  const Random random(7, RandomStream::kInitialPosition);
+  constexpr double kReach = 0.75;
+  constexpr int kRings = 2;
+  int known = 0, meet = 0;
+  for (std::uint64_t n = 0; n < 60; ++n) {
+    const Vec3d stretch = Vec3d{1, 1, 1} + random.direction(CellId(1), n) * (0.015 * static_cast<double>(n));  // up to 0.9
+    const Vec3d dent = random.direction(CellId(2), n);
+    std::vector<Vec3d> position;
+    for (const Vec3d& unit : shape->position) {
+      const Vec3d x = unit * (6.0 / norm(unit));
+      const double deep = std::max(0.0, dot(x, dent) - 6.0 + 0.2 * static_cast<double>(n));
+      position.push_back({stretch.x * x.x - deep * dent.x, stretch.y * x.y - deep * dent.y, stretch.z * x.z - deep * dent.z});
+    }
+    const PairBody body{.topology = shape->topology.get(), .position = position, .node_normal = {}};
+    const bool may = may_meet_itself(body, kReach, kRings), does = meets_itself(body, kReach, kRings);
+    EXPECT_TRUE(may || !does) << n;
+    known += !may;
+    meet += does;
+    EXPECT_FALSE(may && n < 8) << n << ": nearly a ball";
+  }
+  EXPECT_GT(known, 8);
+  EXPECT_GT(meet, 5);
 }
 
 TEST(SelfContact, CountsOnlyFacesThatAreFarAlongTheSurface) {

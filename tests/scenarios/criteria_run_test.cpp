@@ -170,7 +170,7 @@ TEST(ColumnNames, ThatTwoThingsHaveAreToldByCheck) {
   EXPECT_TRUE(test::read(text("oxygen"), options).ok());
   const auto study = test::read(text("way"), options);
   ASSERT_FALSE(study.ok());
-  EXPECT_THAT(study.error().text(), testing::AllOf(HasSubstr("two observables are called 'mean_way'"), HasSubstr("[E112]")));
+  EXPECT_THAT(study.error().text(), testing::AllOf(HasSubstr("'way' would make a second column 'mean_way'"), HasSubstr("[E112]")));
 }
 
 TEST_F(OwnCriteria, FindNothingInWhatIsInfiniteOrMissing) {
