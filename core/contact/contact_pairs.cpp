@@ -257,10 +257,9 @@ void ContactLayer::know_bodies(const ContactScene& scene) {
 void ContactLayer::rebuild_lists(const ContactScene& scene, SurfacePair& pair) {
   const PairBody body[2] = {view(scene, pair, 0), view(scene, pair, 1)};
   const ContactMaterial& contact = material_of(scene, pair);
-  ListReach reach = reach_of(pair, contact);
+  const ListReach reach = reach_of(pair, contact);
   const int rings = pair.with_itself() ? self_contact_rings(body[0].topology->face_count(), contact.self_radius, reach.range) : 0;
-  if (pair.with_itself()) reach.range = contact.self_distance;  // it has no adhesion: what is further away does nothing
-  const bool out_of_reach = pair.with_itself() && !may_meet_itself(body[0], contact.self_distance + reach.skin, rings);
+  const bool out_of_reach = pair.with_itself() && !may_meet_itself(body[0], reach.range + reach.skin, rings);  // until the lists are made anew
   std::vector<std::uint32_t> faces[2];
   for (int which = 0; which < 2; ++which) {
     if (body[which].topology == nullptr || out_of_reach) continue;
@@ -279,7 +278,7 @@ void ContactLayer::rebuild_lists(const ContactScene& scene, SurfacePair& pair) {
   PointsAgainstBody lists[2], old;
   for (int d = 0; d < 2; ++d) {
     lists[d].clear();
-    if (body[d].topology != nullptr && !out_of_reach && !(d == 1 && (pair.rigid || pair.with_itself()))) {
+    if (body[d].topology != nullptr && !(d == 1 && (pair.rigid || pair.with_itself()))) {
       pair.points[d].unpack(old);
       build_point_lists(body[d], body[1 - d], reach, settings_.points_per_face, faces[1 - d], old, pair.patch_motion,
                         pair.motion - pair.built_at, lists[d], rings);
