@@ -259,7 +259,8 @@ void ContactLayer::rebuild_lists(const ContactScene& scene, SurfacePair& pair) {
   const ContactMaterial& contact = material_of(scene, pair);
   const ListReach reach = reach_of(pair, contact);
   const int rings = pair.with_itself() ? self_contact_rings(body[0].topology->face_count(), contact.self_radius, reach.range) : 0;
-  const bool out_of_reach = pair.with_itself() && !may_meet_itself(body[0], reach.range + reach.skin, rings);  // until the lists are made anew
+  const bool out_of_reach =
+      pair.with_itself() && !may_meet_itself(body[0], reach.range + reach.skin, rings);  // until the lists are made anew
   std::vector<std::uint32_t> faces[2];
   for (int which = 0; which < 2; ++which) {
     if (body[which].topology == nullptr || out_of_reach) continue;
