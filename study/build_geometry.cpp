@@ -1,9 +1,12 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/friction/contact_element.h"
 #include "core/mesh/pipette.h"
 #include "core/mesh/primitives.h"
+#include "core/numbers/number_text.h"
 #include "study/build.h"
 
 namespace morula::scenarios {
@@ -107,6 +110,54 @@ void check_place(BuildContext& c, const std::string& name, const Place& place, c
                         "move it, or make the domain larger");
 }
 
+/// How far the plane b lies before the plane a at a time [µm].
+double room_between(const BuildContext& c, std::size_t a, std::size_t b, const Vec3d& normal, double time) {
+  const auto at = [&](std::size_t k) { return c.draft.geometry[k].content.plane.center.value + c.study.model.obstacles[k].way(0.0, time); };
+  return dot(at(b) - at(a), normal);
+}
+
+/// The first time at which the planes a and b, that face each other across some room, have none between them; infinity: never [s].
+double planes_meet(const BuildContext& c, std::size_t a, std::size_t b) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  const draft::Shape &one = c.draft.geometry[a].content.plane, &other = c.draft.geometry[b].content.plane;
+  if (norm2(one.normal.value) == 0.0 || norm2(other.normal.value) == 0.0) return kNever;
+  const Vec3d normal = normalized(one.normal.value), apart = other.center.value - one.center.value;
+  const bool facing = dot(normal, normalized(other.normal.value)) < -0.7 && dot(apart, normal) > 0.0;
+  const double beside = norm(apart - normal * dot(apart, normal));
+  if (!facing || beside > 0.5 * (one.radius.value + other.radius.value)) return kNever;
+  const std::vector<ObstacleSpec>& obstacles = c.study.model.obstacles;
+  double before = 0.0, room = dot(apart, normal);
+  while (before < c.draft.time.end.value) {  // between the corners of both courses they go straight on
+    const double time =
+        std::min({obstacles[a].distance.next_point(before), obstacles[b].distance.next_point(before), c.draft.time.end.value});
+    const double then = room_between(c, a, b, normal, time);
+    if (then <= 0.0) return before + (time - before) * room / (room - then);
+    before = time, room = then;
+  }
+  return kNever;
+}
+
+/// W706: plates between which no cell can be.
+void check_planes(BuildContext& c) {
+  if (!c.draft.time.end.known()) return;
+  const auto is_plane = [&c](std::size_t k) {
+    const draft::Shape& d = c.draft.geometry[k].content.plane;
+    return d.present && d.center.known() && d.normal.known() && d.radius.known();
+  };
+  for (std::size_t b = 0; b < c.draft.geometry.size(); ++b)
+    for (std::size_t a = 0; a < b; ++a) {
+      if (!is_plane(a) || !is_plane(b)) continue;
+      const double time = planes_meet(c, a, b);
+      if (std::isinf(time)) continue;
+      const bool last_moves = c.study.model.obstacles[b].moves();
+      const auto& moving = c.draft.geometry[last_moves ? b : a];
+      c.diagnostics.warning(706, moving.place,
+                            "the planes '" + c.draft.geometry[a].name + "' and '" + c.draft.geometry[b].name + "' meet after " +
+                                number_text("%.3g min", time / 60.0) + " and go through each other: no cell finds room between them",
+                            "a way that ends before, by a cell that is pressed flat at least");
+    }
+}
+
 }  // namespace
 
 void build_geometry(BuildContext& c) {
@@ -143,6 +194,7 @@ void build_geometry(BuildContext& c) {
                           "use `friction: simple`, or a coarser surface");
     c.study.model.obstacles.push_back(std::move(obstacle));
   }
+  check_planes(c);
 }
 
 }  // namespace morula::scenarios

@@ -92,6 +92,18 @@ void check_contact(BuildContext& c) {
   if (d.repulsion.is_changed()) warn(d.repulsion.place, "repulsion");
 }
 
+/// A run whose cells are driven never comes to rest.
+void check_end_at_rest(BuildContext& c) {
+  const Given<double>& rest = c.draft.time.rest;
+  if (!rest.is_changed() || !(rest.value > 0.0)) return;
+  for (std::size_t i = 0; i < c.study.model.types.size(); ++i) {
+    const CellType& type = c.study.model.types[i];
+    const char* what = type.migration.acts() ? "crawl" : type.fluctuations.energy > 0.0 ? "fluctuate" : nullptr;
+    if (what == nullptr || std::ranges::none_of(c.study.initial, [i](const InitialCells& cells) { return cells.may_have(i); })) continue;
+    return tell(c, rest.place, "the run never comes to rest, for cells of '" + type.name + "' " + what, "leave `rest` away");
+  }
+}
+
 void check_marks(BuildContext& c) {
   for (auto& [name, place, mark] : c.draft.marks)
     if (mark.touched && mark.when.given && mark.when.value == "start")
@@ -114,6 +126,7 @@ void check_marks(BuildContext& c) {
 void check_unused(BuildContext& c) {
   check_shells_that_are_none(c);
   check_rest(c);
+  check_end_at_rest(c);
   check_exchange(c);
   check_contact(c);
   check_marks(c);

@@ -311,6 +311,9 @@ constexpr ErrorCode kCodes[] = {
     {705, "noise that folds a mesh",
      "Fluctuations turn faces against their tension and rigidity. Where the mean square of that angle is above 0.4 the mesh folds, and no "
      "step is found."},
+    {706, "planes that go through each other",
+     "Two planes that face each other, and of which one moves, have no room between them any more before the study ends (warning): what is "
+     "between them is pressed to nothing, and the run ends there."},
 };
 
 }  // namespace

@@ -54,9 +54,10 @@ struct Balls {
   }
 };
 
-/// Add the target faces that are within `reach` of the ball of a source face's points.
+/// Add the target faces that are within `reach` of the ball of a source face's points, and that `counts(face)`.
+template <class Counts>
 void add_candidates_of_face(const Ball& points, const PairBody& target, std::span<const std::uint32_t> target_faces, const Balls& balls,
-                            double reach, std::vector<std::uint16_t>& out) {
+                            double reach, Counts&& counts, std::vector<std::uint16_t>& out) {
   const double limit = (reach + points.radius) * (1.0 + 1e-9), limit2 = limit * limit;
   std::uint16_t waiting[kLanes];
   int count = 0;
@@ -71,6 +72,7 @@ void add_candidates_of_face(const Ball& points, const PairBody& target, std::spa
     count = 0;
   };
   balls.near(points.center, limit, [&](std::size_t m) {
+    if (!counts(target_faces[m])) return;
     const Triangle& t = target.topology->faces()[target_faces[m]];
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3d x = target.node(t[k]);
@@ -146,13 +148,10 @@ void build_point_lists(const PairBody& source, const PairBody& target, const Lis
       if (norm2(ball.center - target.node(0)) > limit * limit) continue;
     } else {
       const std::size_t before = lists.candidate.size();
-      add_candidates_of_face(ball, target, target_faces, balls, distance, lists.candidate);
-      if (rings > 0 && lists.candidate.size() > before) {
-        around.find(face, rings);
-        const auto first = lists.candidate.begin() + static_cast<std::ptrdiff_t>(before);
-        lists.candidate.erase(std::remove_if(first, lists.candidate.end(), [&](std::uint16_t m) { return around.touch(target_faces[m]); }),
-                              lists.candidate.end());
-      }
+      if (rings > 0) around.find(face, rings);
+      add_candidates_of_face(
+          ball, target, target_faces, balls, distance, [&](std::uint32_t other) { return rings == 0 || !around.touch(other); },
+          lists.candidate);
       if (lists.candidate.size() == before) continue;
     }
     lists.source_face.push_back(face);

@@ -33,7 +33,9 @@ Result<StepReport, StepFault> explicit_step(Workspace& work, Tissue& tissue, con
   if (!std::isfinite(report.displacement) || report.displacement > work.setting.model.contact.range)
     return undo({"points moved too far in one explicit step", {}, true});
   const Evaluation end = evaluate(work, tissue, {});
-  if (work.setting.comm.any(any_crossed(work, tissue, start))) return undo({"a surface would pass through another", {}, true});
+  const std::optional<CellId> through = find_crossed(work, tissue, start);
+  if (work.setting.comm.any(through.has_value()))
+    return undo({"a surface would pass through another", through.value_or(CellId()), true, through ? 1.0 : 0.0});
   if (const auto fault = find_fault(work, tissue); work.setting.comm.any(fault.has_value()))
     return undo(fault.value_or(StepFault{}));  // that of another rank is told
   finish_step(work, tissue, task, end.energy, report);

@@ -63,6 +63,12 @@ struct Search {
   std::vector<DrivenBack> back{};  ///< these; of this rank
 };
 
+/// A cell that would have been moved against its own forces.
+struct MovedAgainst {
+  CellId cell;
+  double work = 0.0;  ///< of its forces at the end of the trial, against the trial's way [nN·µm]
+};
+
 /// How an iteration went.
 struct Iteration {
   bool moved = false;
@@ -120,7 +126,10 @@ class NewtonStep {
   /// Freeze rule (time_stepping.md §9.3): the gradient in the metric of friction, then a short Newton step with an allowed rise. Says whether
   /// that moved anything; if not, all is at rest.
   Result<bool, StepFault> thaw(const Direction& newton);
+  /// Why nothing can move: the cell that would have passed through another, else that which failed trials went against the most.
   [[nodiscard]] StepFault stuck() const;
+  /// The cell of this rank whose forces a trial's end drives back the most.
+  [[nodiscard]] MovedAgainst most_against(const Direction& direction, const Residual& trial) const;
   /// Another iteration would move points by about the part of this one's way that the residual has left: where this is little, it is not
   /// worth a matrix and a solve, and the next step sees the residual (time_stepping.md §6.1, §10.5).
   [[nodiscard]] bool is_done(const Iteration& last) const;
@@ -139,6 +148,8 @@ class NewtonStep {
   double force_norm_ = 0.0;      ///< of the residual at the start; where obstacles have moved, of the forces before that
   double scale_ = 1.0;           ///< that over the residual at the start
   StepReport report_;
+  std::optional<CellId> through_;  ///< a cell of this rank that a trial would have moved through another
+  MovedAgainst against_;           ///< of the last search that failed
 };
 
 Residual NewtonStep::measure(std::optional<Residual>&& old) {
@@ -171,8 +182,9 @@ bool NewtonStep::wants_too_much(const Direction& direction, double longest) cons
 }
 
 bool NewtonStep::is_sound(const Residual& trial) {
-  const bool through = any_crossed(work_, tissue_, start());
-  report_.crossings += through;
+  const std::optional<CellId> through = find_crossed(work_, tissue_, start());
+  report_.crossings += through.has_value();
+  if (through) through_ = through;
   return work_.setting.comm.all(std::isfinite(trial.phi) && !find_fault(work_, tissue_).has_value() && !through);
 }
 
@@ -208,6 +220,7 @@ Search NewtonStep::search(const Direction& direction, int halvings, double allow
     if (k == kShortSearch && sound) out.back = driven_back({direction.velocity, direction.factor * fraction}, *trial, out.held);
     if (k == kShortSearch && out.held && give_up_to_hold) break;
     if (k == kShortSearch) hold(out.back, true);
+    if (k == halvings) against_ = sound ? most_against({direction.velocity, direction.factor * fraction}, *trial) : MovedAgainst();
     before = sound ? trial->phi : std::numeric_limits<double>::infinity();
   }
   go_to(0.0);
@@ -293,20 +306,37 @@ Result<bool, StepFault> NewtonStep::thaw(const Direction& newton) {
 
 StepFault NewtonStep::stuck() const {
   const bool crossing = work_.setting.comm.any(report_.crossings > 0);
+  const CellId named = crossing ? through_.value_or(CellId()) : against_.cell;
+  const bool is_named = work_.setting.comm.any(named.valid());  // else the cell with the largest force
   if (const auto shape = find_fault(work_, tissue_)) return *shape;
-  StepFault fault{crossing ? "no step lowers the energy without a surface passing through another" : "no step lowers the energy", {}};
+  StepFault fault{crossing ? "no step lowers the energy without a surface passing through another" : "no step lowers the energy", named};
   const std::vector<Vec3d>& left = now_->force;
+  double most = 0.0;
   std::uint32_t at = 0;
-  for (const ContactBody& body : work_.scene.bodies())
-    for (std::uint32_t i = body.first_point; body.active() && i < body.first_point + body.point_count; ++i)
-      if (const double here = norm(left[i]); here > fault.left || (here == fault.left && here > 0.0 && body.id < fault.cell)) {
-        fault.left = here;
+  for (const ContactBody& body : work_.scene.bodies()) {
+    if (!body.active() || (is_named && body.id != named)) continue;
+    for (std::uint32_t i = body.first_point; i < body.first_point + body.point_count; ++i)
+      if (const double here = norm(left[i]); here > most || (here == most && here > 0.0 && body.id < fault.cell)) {
+        most = here;
         fault.cell = body.id;
         at = i;
       }
+  }
+  if (fault.cell.valid()) fault.badness = !is_named ? most : crossing ? 1.0 : against_.work;
   const std::vector<Vec3d>& of_contacts = work_.terms.contacts->found().force;
   if (at < work_.scene.owned_nodes() && at < of_contacts.size()) fault.what += forces_at_worst(of_contacts[at], left[at]);
   return fault;
+}
+
+MovedAgainst NewtonStep::most_against(const Direction& direction, const Residual& trial) const {
+  MovedAgainst out;
+  for (const ContactBody& body : work_.scene.bodies()) {
+    if (!body.active()) continue;
+    double work = 0.0;
+    for (std::uint32_t i = body.first_point; i < body.first_point + body.point_count; ++i) work -= dot(trial.force[i], direction[i]);
+    if (work > out.work || (work == out.work && work > 0.0 && body.id < out.cell)) out = {body.id, work};
+  }
+  return out;
 }
 
 bool NewtonStep::is_done(const Iteration& last) const {

@@ -159,8 +159,10 @@ std::optional<StepFault> NucleusSystem::fault(const World& world) const {
   return fault;
 }
 
-bool NucleusSystem::crossed(const World&, std::span<const Vec3d>) const {
-  return !empty() && contacts_.crossed(contact_scene(), {}) != nullptr;
+std::optional<CellId> NucleusSystem::crossed(const World&, std::span<const Vec3d>) const {
+  const SurfacePair* pair = empty() ? nullptr : contacts_.crossed(contact_scene(), {});
+  if (pair == nullptr) return std::nullopt;
+  return contact_scene().bodies[pair->a].id;
 }
 
 void NucleusSystem::begin_step(const World& world, StepStart& start) {

@@ -34,7 +34,7 @@ class NucleusSystem : public Term {
   void evaluate(const World& world, Forces& out) override;
   [[nodiscard]] std::optional<StepFault> fault(const World& world) const override;
   /// A nucleus and its cortex would pass through each other (core/contact/crossing.h).
-  [[nodiscard]] bool crossed(const World& world, std::span<const Vec3d> start) const override;
+  [[nodiscard]] std::optional<CellId> crossed(const World& world, std::span<const Vec3d> start) const override;
   /// Γ of links and drag. Where the solver starts, nuclei have their last velocity, but go with the cell.
   void begin_step(const World& world, StepStart& start) override;
   void add_friction(const World& world, const Way& way, std::span<Vec3d> out, OrderFreeSum& quadratic) override;

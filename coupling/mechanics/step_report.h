@@ -15,7 +15,7 @@ struct StepFault {
   std::string what;
   CellId cell;  ///< where, if known
   bool smaller_step_may_help = true;
-  double left = 0.0;  ///< force without balance there [nN]; kNoShape: the cell cannot have the shape that it has
+  double badness = 0.0;  ///< of faults of one kind the worst is told; kNoShape: the cell cannot have the shape that it has
 };
 
 /// Of what each rank has found the worst, and of equals that of the first cell: what all of them tell. Collective.

@@ -214,8 +214,10 @@ void SurfaceContacts::evaluate_again(const World& world, bool with_spheres) {
   give_back(gradient.node_normal);
 }
 
-bool SurfaceContacts::crossed(const World& world, std::span<const Vec3d> start) const {
-  return layer_.crossed(contact_scene(world), start) != nullptr;
+std::optional<CellId> SurfaceContacts::crossed(const World& world, std::span<const Vec3d> start) const {
+  const SurfacePair* pair = layer_.crossed(contact_scene(world), start);
+  if (pair == nullptr) return std::nullopt;
+  return world.scene.bodies()[pair->a].id;
 }
 
 void SurfaceContacts::begin_step(const World& world, StepStart&) { layer_.begin_step(contact_scene(world)); }

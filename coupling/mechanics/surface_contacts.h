@@ -35,7 +35,7 @@ class SurfaceContacts : public Term {
   /// Finds the candidates anew when bodies have gone too far since the last time. Collective.
   void measure(const World& world) override;
   void evaluate(const World& world, Forces& out) override;
-  [[nodiscard]] bool crossed(const World& world, std::span<const Vec3d> start) const override;
+  [[nodiscard]] std::optional<CellId> crossed(const World& world, std::span<const Vec3d> start) const override;
   void begin_step(const World& world, StepStart& start) override;
   void end_step(const World&, StepEnd&) override { layer_.end_step(); }
   void assemble(const World& world, double dt, Assembly& out) override;

@@ -89,8 +89,8 @@ class Term : public AddedPart {
   virtual void evaluate(const World&, Forces&) {}
   /// What makes the present positions impossible; after evaluate().
   [[nodiscard]] virtual std::optional<StepFault> fault(const World&) const { return std::nullopt; }
-  /// Whether a surface has passed through another on the way from `start`; after evaluate().
-  [[nodiscard]] virtual bool crossed(const World&, std::span<const Vec3d> /*start*/) const { return false; }
+  /// A cell whose surface has passed through another on the way from `start`, if there is one; after evaluate().
+  [[nodiscard]] virtual std::optional<CellId> crossed(const World&, std::span<const Vec3d> /*start*/) const { return std::nullopt; }
 
   /// A step begins at the present positions: freeze the friction, Γ = Σ G Gᵀ.
   virtual void begin_step(const World&, StepStart&) {}

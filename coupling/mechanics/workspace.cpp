@@ -223,9 +223,11 @@ std::optional<StepFault> find_fault(const Workspace& work, const Tissue& tissue)
   return std::nullopt;
 }
 
-bool any_crossed(const Workspace& work, const Tissue& tissue, std::span<const Vec3d> start) {
+std::optional<CellId> find_crossed(const Workspace& work, const Tissue& tissue, std::span<const Vec3d> start) {
   const World world = work.world(tissue);
-  return std::any_of(work.terms.all.begin(), work.terms.all.end(), [&](const auto& term) { return term->crossed(world, start); });
+  for (const auto& term : work.terms.all)
+    if (const auto cell = term->crossed(world, start)) return cell;
+  return std::nullopt;
 }
 
 double deepest_overlap(const Workspace& work) {

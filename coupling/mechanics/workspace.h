@@ -129,8 +129,8 @@ const Known& prepare_step(Workspace& work, const Tissue& tissue, const Settling*
 Evaluation evaluate(Workspace& work, const Tissue& tissue, std::vector<Vec3d> room);
 /// What makes the present positions impossible, if anything.
 std::optional<StepFault> find_fault(const Workspace& work, const Tissue& tissue);
-/// Whether a surface of this rank has passed through another on the way from `start`.
-bool any_crossed(const Workspace& work, const Tissue& tissue, std::span<const Vec3d> start);
+/// A cell of this rank whose surface has passed through another on the way from `start`, if there is one.
+std::optional<CellId> find_crossed(const Workspace& work, const Tissue& tissue, std::span<const Vec3d> start);
 /// Deepest penetration of a surface into another, of all ranks [µm]. Collective.
 double deepest_overlap(const Workspace& work);
 

@@ -64,7 +64,8 @@ RunLoop::RunLoop(const Study& study, const RunRequest& request, const Comm& comm
       end_(end_of_run(study.time, request.until)),
       wall_before_(record_.wall_time),
       cost_(longest_step(study)) {
-  checkpoint_due_ = next_multiple(simulation_->tissue().clock.time, study.time.checkpoint);
+  last_output_ = simulation_->tissue().clock.time;
+  checkpoint_due_ = next_multiple(last_output_, study.time.checkpoint);
   progress_.end = end_;
   count_cells();
   std::vector<std::int64_t> of_type(study.model.types.size(), 0);
@@ -225,7 +226,6 @@ Status RunLoop::output() {
     expect_growth(measures.of_type);
     MORULA_TRY(write_moment(measures));
   }
-  interval_ = {};
   Status within = check_limits(measures);
   MORULA_TRY(agree(write_events(), comm_));  // what the limits warn of belongs to this moment: a checkpoint comes after it
   const double seconds = std::chrono::duration<double>(SteadyClock::now() - began).count();
@@ -246,6 +246,8 @@ Status RunLoop::write_moment(const Measures& measures) {
   if (written.ok()) written = folder_.add_to_series(measures.time, row);
   if (written.ok()) written = write_events();
   if (written.ok()) written = folder_.write_status(status(RunState::kRunning));
+  last_output_ = measures.time;
+  interval_ = {};
   return agree(std::move(written), comm_);
 }
 
@@ -349,7 +351,10 @@ Error RunLoop::fail(Error error, bool state_is_sound) {
   // A step that broke off midway left no state to keep. Where something could not be written (disk full, folder gone), a checkpoint would be of
   // a moment whose row or snapshot is missing: the run goes on from the earlier one, and writes it then. The error itself comes after the
   // checkpoint: a run that goes on from there tells it anew if it meets it again.
-  if (state_is_sound && error.kind == ErrorKind::kPhysics && agree(write_events(), comm_).ok()) (void)checkpoint().ok();
+  if (state_is_sound && error.kind == ErrorKind::kPhysics) {
+    const bool is_shown = simulation_->tissue().clock.time <= last_output_ || write_moment(measure(*simulation_)).ok();
+    if (is_shown && agree(write_events(), comm_).ok()) (void)checkpoint().ok();
+  }
   warn(error.message);
   Status events = write_events();
   const bool of_all_ranks = error.kind == ErrorKind::kPhysics;

@@ -120,6 +120,7 @@ class RunLoop {
   Progress progress_;
   Load load_;
   double output_seconds_ = 0.0;       ///< that an output takes, as the last ones did
+  double last_output_ = 0.0;          ///< moment of it, or that at which this part of the run began [s]
   double growth_rate_ = 0.0;          ///< of the spheres, if nothing inhibits it [1/s]
   std::vector<ToldEvent> events_;     ///< of the tissue, not yet written
   std::map<CellId, int> promotions_;  ///< of each cell by a trigger, since the run began or was resumed

@@ -69,6 +69,29 @@ std::string messages_with(const TriangleMesh& mesh) {
 
 TriangleMesh ball() { return std::move(make_sphere(10.0, 2)).value(); }
 
+/// Plates 20 um apart, of which one has gone 30 um after 90 min: they meet on two thirds of the way from 30 to 90 min.
+TEST(StudyGeometry, PlanesThatGoThroughEachOtherAreTold) {
+  const auto told = [](const std::string& top, const std::string& more) {
+    const auto study = test::read(
+        "schema: 1\nstudy: plates\ntime: {end: 3 h}\ndomain: {size: [100 um, 100 um, 100 um]}\n"
+        "cell_types: {cell: {radius: 6 um, body: sphere}}\ngeometry:\n"
+        "  bottom: {plane: {center: [0 um, 0 um, -10 um], size: 80 um}}\n"
+        "  top: {plane: {center: " +
+            top + ", size: 80 um}, " + more +
+            "}\n"
+            "initial: [{type: cell, at: [[0 um, 0 um, -3 um]]}]\n",
+        kShapesOnly);
+    return study.ok() ? study->warnings.text() : study.error().text();
+  };
+  const std::string down = "motion: {direction: [0, 0, -1], course: [{time: 30 min, distance: 0 um}, {time: 90 min, distance: ";
+  const std::string above = "[0 um, 0 um, 10 um], normal: [0, 0, -1]";
+  EXPECT_THAT(told(above, down + "30 um}]}"), testing::AllOf(HasSubstr("'bottom' and 'top' meet after 70 min"), HasSubstr("[E706]")));
+  EXPECT_THAT(told(above, "motion: {velocity: [0 um/h, 0 um/h, -10 um/h]}"), HasSubstr("meet after 120 min"));
+  EXPECT_EQ(told(above, down + "12 um}]}"), "");
+  EXPECT_EQ(told("[0 um, 0 um, 10 um]", down + "30 um}]}"), "") << "it does not face the other";
+  EXPECT_EQ(told("[0 um, 0 um, -30 um], normal: [0, 0, -1]", "motion: {velocity: [0 um/h, 0 um/h, -1 um/h]}"), "") << "back to back";
+}
+
 TEST(StudyGeometry, SoundStlIsReadAndScaled) {
   const Folder folder;
   ASSERT_TRUE(write_stl(folder.path() / "mesh.stl", ball()).ok());

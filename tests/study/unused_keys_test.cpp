@@ -45,6 +45,15 @@ TEST(UnusedKeys, OfShellsWhereNobodyMakesOne) {
               Not(HasSubstr("no effect")));
 }
 
+TEST(UnusedKeys, OfAnEndAtRestThatNeverComes) {
+  const auto told = [](const std::string& type) {
+    return warnings_of(changed("time: {end: 1 h,", "time: {rest: 1e-3 um/s, end: 1 h,", study_of("{a: " + type + "}")));
+  };
+  EXPECT_THAT(told("{body: sphere, migration: {speed: 20 um/h}}"),
+              AllOf(HasSubstr("the run never comes to rest, for cells of 'a' crawl: it has no effect"), HasSubstr("[E515]")));
+  EXPECT_EQ(told("{body: sphere}"), "");
+}
+
 /// The modulus of spheres and their packing are those of shells where nothing else is said.
 TEST(UnusedKeys, DoNotCountTheBulkModulus) {
   EXPECT_EQ(warnings("{a: {dcm: {bulk_modulus: 4 kPa}}}"), "");

@@ -401,6 +401,13 @@ TEST(CappedStart, ThatFoldsSoftMeshesSaysWhatDoesNot) {
   const Outcome outcome = run_morula({"run", "study.yaml", "--out", "run"}, folder.path());
   EXPECT_EQ(outcome.exit_code, 4) << outcome.all();
   EXPECT_THAT(outcome.err, HasSubstr("start_cap: auto"));
+  // The state at which it ended is the last row and the last snapshot, once also where the run goes on from there and ends again.
+  const double ended = info_of(folder / "run")["time"];
+  ASSERT_GT(ended, 0.0);
+  const std::string series = read_text(folder / "run/series.csv");
+  EXPECT_EQ(std::stod(series.substr(series.rfind('\n', series.size() - 2) + 1)), ended);
+  EXPECT_EQ(run_morula({"resume", "run"}, folder.path()).exit_code, 4);
+  EXPECT_EQ(read_text(folder / "run/series.csv"), series);
 }
 
 TEST(CappedStart, ThatDoesNotEndInItsTimeStopsTheRun) {
