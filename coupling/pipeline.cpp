@@ -133,7 +133,10 @@ Result<StepOutcome> Simulation::whole_step(const StepPlan& plan, const std::func
   if (any_senses_a_field(model_.types)) {
     MORULA_TRY_ASSIGN(sensed, sense_fields(model_, tissue_, centers(), comm_));
   }
-  look_into_lumens(model_, mechanics_->obstacles(), tissue_, comm_);
+  {
+    auto timed = timer().scope(Stage::kBehaviours);
+    look_into_lumens(model_, mechanics_->obstacles(), tissue_, comm_);
+  }
 
   for (;; ++outcome.retries) {
     {  // behaviours: growth, cycle, death, migration

@@ -22,6 +22,30 @@ Vec3d turned(const Vec3d& p, int side) {
           sign * p[static_cast<std::size_t>(axis)]};
 }
 
+/// Whether corners, each a ball of this radius, lie beyond one of the four planes through the eye and the edges of the side in whose frame they are: no ray of this
+/// side meets what is between them.
+bool is_beside(std::span<const Vec3d> corners, double radius) {
+  const double far = radius * std::numbers::sqrt2;
+  return std::ranges::all_of(corners, [far](const Vec3d& p) { return p.x - p.z > far; }) ||
+         std::ranges::all_of(corners, [far](const Vec3d& p) { return -p.x - p.z > far; }) ||
+         std::ranges::all_of(corners, [far](const Vec3d& p) { return p.y - p.z > far; }) ||
+         std::ranges::all_of(corners, [far](const Vec3d& p) { return -p.y - p.z > far; });
+}
+
+/// Parts of the sphere of directions that the rays of a side stand for, not yet divided by their sum over all sides.
+const std::vector<double>& weights_of_side() {
+  static const std::vector<double> weights = [] {
+    std::vector<double> out;
+    for (int j = 0; j < SightMap::kSide; ++j)
+      for (int i = 0; i < SightMap::kSide; ++i) {
+        const double u = ray_coordinate(i), v = ray_coordinate(j);
+        out.push_back(std::pow(1.0 + u * u + v * v, -1.5));
+      }
+    return out;
+  }();
+  return weights;
+}
+
 /// First ray at or after a coordinate, within 0 to kSide.
 int first_ray(double u) {
   return static_cast<int>(std::clamp(std::ceil((u + 1.0) * 0.5 * SightMap::kSide - 0.5), 0.0, static_cast<double>(SightMap::kSide)));
@@ -64,7 +88,7 @@ void SightMap::cast_triangle(const Vec3d& a, const Vec3d& b, const Vec3d& c, std
   if (std::min({norm(a - eye_), norm(b - eye_), norm(c - eye_)}) > reach_) return;
   for (int side = 0; side < 6; ++side) {
     const Vec3d p[3] = {turned(a - eye_, side), turned(b - eye_, side), turned(c - eye_, side)};
-    if (std::max({p[0].z, p[1].z, p[2].z}) <= kNear) continue;
+    if (std::max({p[0].z, p[1].z, p[2].z}) <= kNear || is_beside(p, 0.0)) continue;
     Window w{0, kSide, 0, kSide};
     if (std::min({p[0].z, p[1].z, p[2].z}) > kNear) {
       const double u[3] = {p[0].x / p[0].z, p[1].x / p[1].z, p[2].x / p[2].z}, v[3] = {p[0].y / p[0].z, p[1].y / p[1].z, p[2].y / p[2].z};
@@ -86,7 +110,7 @@ void SightMap::add_ball(const Vec3d& center, double radius) {
   if (norm(center - eye_) - radius > reach_) return;
   for (int side = 0; side < 6; ++side) {
     const Vec3d p = turned(center - eye_, side);
-    if (p.z + radius <= kNear) continue;
+    if (p.z + radius <= kNear || is_beside({&p, 1}, radius)) continue;
     Window w{0, kSide, 0, kSide};
     if (const double low = p.z - radius, high = p.z + radius; low > kNear) {
       const auto least = [&](double x) { return std::min((x - radius) / low, (x - radius) / high); };
@@ -116,10 +140,7 @@ std::vector<std::uint32_t> SightMap::seen() const {
   return out;
 }
 
-double SightMap::weight(std::size_t ray) {
-  const double u = ray_coordinate(static_cast<int>(ray % kSide)), v = ray_coordinate(static_cast<int>(ray / kSide % kSide));
-  return std::pow(1.0 + u * u + v * v, -1.5);
-}
+double SightMap::weight(std::size_t ray) { return weights_of_side()[ray % (std::size_t{kSide} * kSide)]; }
 
 Vec3d SightMap::direction(std::size_t ray) {
   const std::size_t side = ray / (std::size_t{kSide} * kSide), axis = side / 2;
