@@ -202,8 +202,9 @@ void add_neighbours(const Study& study, double time, Counts& counts) {
   }
 }
 
-/// From the places of the cells, and the bodies that the regions of a time give them.
-Counts count_cells(const Study& study, Tissue& tissue, double time) {
+/// From the places of the cells, and the bodies that the regions of a time give them. `swollen`: how many times as far from each other the cells are then, as
+/// those of a tissue that has grown.
+Counts count_cells(const Study& study, Tissue& tissue, double time, double swollen = 1.0) {
   Counts out;
   tissue.clock.time = time;
   out.cells = static_cast<std::int64_t>(tissue.cells.size());
@@ -219,6 +220,9 @@ Counts count_cells(const Study& study, Tissue& tissue, double time) {
     ++out.of_type[tissue.cells.rows[body.row].type];
     center.push_back(center_of(tissue, body));
   }
+  const Vec3d middle = std::accumulate(center.begin(), center.end(), Vec3d{}) * (1.0 / std::max(1.0, static_cast<double>(center.size())));
+  if (swollen != 1.0)
+    for (Vec3d& c : center) c = middle + (c - middle) * swollen;
   Model model = study.model;
   model.box_volume = {};  // the cells are where they are at first, and so is the box
   for (const SwapOrder& order : choose_swaps(model, tissue, {center}, Comm())) {
@@ -324,7 +328,8 @@ Result<Tried> try_steps(const Study& study, Tissue tissue) {
   return Tried{begin - start, std::move(out)};
 }
 
-/// Bodies that regions exchange later on, cells being where they are at first: regions come and go, and move with what they surround.
+/// Bodies that regions exchange later on, cells being where they are at first: regions come and go, and move with what they surround. A tissue that grows
+/// swells about its middle, and reaches others.
 struct LaterBodies {
   std::vector<std::pair<double, Load>> from;  ///< the load from a time on [s], in order, the first from 0
   double most_nodes = 0.0;                    ///< at the end, of any of them
@@ -344,8 +349,15 @@ LaterBodies later_bodies(const Study& study, const Counts& first, double growth,
     for (int i = 1; i < kMoments; ++i) times.push_back(end * i / kMoments);
   std::sort(times.begin(), times.end());
   LaterBodies out{{{0.0, first.load()}}, 0.0};
-  for (std::size_t i = 0; tissue != nullptr && i < times.size(); ++i)
-    out.from.emplace_back(times[i], count_cells(study, *tissue, 0.5 * (times[i] + (i + 1 < times.size() ? times[i + 1] : end))).load());
+  for (std::size_t i = 0; tissue != nullptr && i < times.size(); ++i) {
+    const double time = 0.5 * (times[i] + (i + 1 < times.size() ? times[i + 1] : end));
+    Load load = count_cells(study, *tissue, time).load();
+    if (growth > 0.0 && !study.model.space.any_periodic()) {  // into what regions it grows
+      const Load grown = count_cells(study, *tissue, time, std::cbrt(multiplied(growth, time))).load();
+      if (grown.shells > load.shells) load = grown;
+    }
+    out.from.emplace_back(times[i], load);
+  }
   for (auto& [time, load] : out.from) {
     load.most_shells = room;
     out.most_nodes = std::max(out.most_nodes, load_after(load, growth, end).nodes);

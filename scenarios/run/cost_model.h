@@ -67,7 +67,7 @@ struct Estimate {
 };
 
 /// Up to 20,000 cells: places the cells of time 0, counts them and tries the first steps for three seconds, up to ten where fewer than 16 fit; the rest is told by how these steps grow
-/// (tried_steps.h) and by the load, as cells multiply and regions, which may move, exchange bodies of cells that are where they were at first, with what outputs and report cost. The range: 1.6 times each way.
+/// (tried_steps.h) and by the load, as cells multiply and regions, which may move, exchange bodies of cells that are where they were at first or where a tissue that swells has brought them, with what outputs and report cost. The range: 1.6 times each way.
 /// Larger tissues are counted by the numbers of the study alone, at once, at a cost per cell and step measured on a 2020s core, in steps as large as they may be;
 /// the range: 3 times each way. A run that comes to rest (`time.rest`) ends earlier, and what begins later than the steps that are tried is not foreseen.
 Result<Estimate> estimate(const Study& study);

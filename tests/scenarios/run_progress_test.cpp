@@ -135,6 +135,26 @@ TEST(CostModel, FollowsRegionsThatMove) {
                                  kBytesOfTwentyShells);
 }
 
+/// 20 cells that become 66 reach a half space in which none is at first.
+TEST(CostModel, FollowsTissuesThatGrowIntoRegions) {
+  const auto memory_with_region_at = [](const std::string& x) {
+    const auto study = test::read(
+        "schema: 1\nstudy: into\ntime: {end: 24 h, output: 24 h, checkpoint: 24 h}\n"
+        "domain: {size: [240 um, 240 um, 240 um], boundary: open}\n"
+        "cell_types: {cell: {radius: 6 um, cycle: {duration: 14 h}, dcm: {nodes: 42}}}\n"
+        "initial: [{type: cell, count: 20, fill: sphere, radius: 19 um}]\ncoupling: {regions: [{name: far, shape: "
+        "half_space, center: [" +
+        x + ", 0 um, 0 um], normal: [-1, 0, 0]}]}\noutput: {report: false}\n");
+    if (!study.ok()) return ADD_FAILURE() << study.error().text(), 0.0;
+    const auto guess = estimate(*study);
+    if (!guess.ok()) return ADD_FAILURE() << guess.error().message, 0.0;
+    EXPECT_EQ(guess->shells, 0);
+    return guess->memory;
+  };
+  constexpr double kBytesOfAShell = 42 * 2200.0;
+  EXPECT_GT(memory_with_region_at("20 um"), memory_with_region_at("90 um") + 3.0 * kBytesOfAShell);
+}
+
 TEST(Progress, LiveLineReadsAsInTheGuide) {
   Progress p;
   p.time = 39.4 * 3600.0;
