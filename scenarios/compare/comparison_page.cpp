@@ -112,7 +112,9 @@ Status add_cells(const RunGroup& group, const std::shared_ptr<const Laws>& laws,
 }  // namespace
 
 std::string value_words(const GroupValue& value) {
-  return number_text("%.4g", value.mean) + (std::isnan(value.spread) ? "" : " ± " + number_text("%.2g", value.spread));
+  constexpr double kRounding = 1e-9;  // a spread that is a smaller part of its value is told as none
+  const double spread = value.spread < kRounding * std::abs(value.mean) ? 0.0 : value.spread;
+  return number_text("%.4g", value.mean) + (std::isnan(spread) ? "" : " ± " + number_text("%.2g", spread));
 }
 
 std::string relative_words(const ColumnDifference& d) {

@@ -6,6 +6,7 @@
 
 #include "core/result.h"
 #include "coupling/model.h"
+#include "scenarios/run/growth_forecast.h"
 #include "scenarios/run/tried_steps.h"
 #include "study/study.h"
 
@@ -15,19 +16,6 @@ namespace morula::scenarios {
 struct WallRange {
   double low = -1.0, high = -1.0;
 };
-
-/// Load of a tissue in units of one sphere: a node of a shell is worth as much as in the balance of ranks (coupling/balance.h).
-struct Load {
-  double spheres = 0.0;
-  double nodes = 0.0;  ///< of all shells
-  double shells = 0.0;
-  double most_shells = std::numeric_limits<double>::infinity();  ///< to which they multiply; cells beyond are spheres
-  [[nodiscard]] double total() const { return spheres + 3.0 * nodes; }
-};
-
-/// Rate at which the number of cells grows if nothing inhibits it: ln 2 / cycle, averaged over the cells of each type [1/s]; where daughters are of other types, the
-/// mean rate over `duration` [s] with the mixture that comes of it.
-double free_growth_rate(const Model& model, const std::vector<std::int64_t>& cells_of_type, double duration);
 
 /// Shells for which the regions of a model have room when there are so many cells; infinite where shells are not bound to regions: then they multiply as all
 /// cells do. How many triggers will make is not foreseen.

@@ -9,9 +9,11 @@
 namespace morula::scenarios {
 namespace {
 
+constexpr double kRounding = 1e-9;  // errors that are a smaller part of their value are told as none
+
 std::string text_of(const LayerMean& value, double scale) {
   if (std::isnan(value.mean)) return "–";
-  const double error = scale * value.error;
+  const double error = value.error < kRounding * std::abs(value.mean) ? 0.0 : scale * value.error;
   return number_text("%.4g", scale * value.mean) + (std::isnan(error) ? "" : " ± " + number_text(error < 10.0 ? "%.1g" : "%.0f", error));
 }
 
