@@ -27,6 +27,10 @@ function(morula_library name)
   endif()
 endfunction()
 
+# Property of all tests that run threads: who waits for another thread sleeps at once. Tests share their cores, and a thread that spins keeps the core that the
+# awaited one needs.
+set(MORULA_SLEEPING_THREADS ENVIRONMENT_MODIFICATION GOMP_SPINCOUNT=set:0)
+
 # morula_tests(<folder> LIBRARIES ...)
 #   tests/<folder>/*_test.cpp become one GoogleTest program; *_slow_test.cpp a second one with the label `slow`.
 function(morula_tests name)
@@ -40,13 +44,13 @@ function(morula_tests name)
     morula_test_options(test_${name})
     target_link_libraries(test_${name} PRIVATE ${ARG_LIBRARIES} GTest::gmock GTest::gtest_main)
     gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 900
-      ENVIRONMENT "MORULA_SHARED_DATA=${PROJECT_SOURCE_DIR}/../shared/data")
+      ENVIRONMENT "MORULA_SHARED_DATA=${PROJECT_SOURCE_DIR}/../shared/data" ${MORULA_SLEEPING_THREADS})
   endif()
   if(slow)
     add_executable(test_${name}_slow ${slow})
     morula_options(test_${name}_slow)
     target_link_libraries(test_${name}_slow PRIVATE ${ARG_LIBRARIES} GTest::gmock GTest::gtest_main)
     gtest_discover_tests(test_${name}_slow TEST_PREFIX "${name}.slow." DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 3600 LABELS slow
-      ENVIRONMENT "MORULA_SHARED_DATA=${PROJECT_SOURCE_DIR}/../shared/data")
+      ENVIRONMENT "MORULA_SHARED_DATA=${PROJECT_SOURCE_DIR}/../shared/data" ${MORULA_SLEEPING_THREADS})
   endif()
 endfunction()

@@ -181,7 +181,7 @@ TEST_F(Snapshots, SurviveAFullDisk) {
 }
 
 TEST_F(Snapshots, NoAlteredByteIsReadAsIfItWereWhole) {
-  if (!comm.is_root()) return;
+  if (!comm.is_root() || comm.size() > 1) return;  // nothing of it is done by several ranks
   for (const double time : {0.0, 1.0}) ASSERT_TRUE(append(path, time, 10, alone).ok());
   const std::string whole = slurp(path);
   const std::string first = description(*read_snapshot(path, 0)), second = description(*read_snapshot(path, 1));

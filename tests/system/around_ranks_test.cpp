@@ -10,22 +10,22 @@ namespace {
 constexpr const char* kStudy = R"(schema: 1
 study: around
 seed: 3
-time: {end: 1 h, output: 10 min, checkpoint: 10 min}
+time: {end: 30 min, output: 5 min, checkpoint: 5 min}
 domain:
   size: [80 um, 80 um, 80 um]
 cell_types:
   skin:
     radius: {mean: 5 um, spread: 5 %}
-    cycle: {duration: {mean: 3 h, spread: 10 %}, axis: along_surface, daughters: {fates: [{share: 50 %, types: [skin, tip]}]}}
+    cycle: {duration: {mean: 90 min, spread: 10 %}, axis: along_surface, daughters: {fates: [{share: 50 %, types: [skin, tip]}]}}
     adhesion: {skin: 5e-5 J/m^2, tip: 5e-5 J/m^2, row: 5e-5 J/m^2}
     variation: {tension: {spread: 10 %, correlation: 50 %}, stiffness: 10 %, adhesion: {spread: 10 %, correlation: -30 %}}
-    dcm: {nodes: 162}
+    dcm: {nodes: 42}
   tip:
     like: skin
-    cycle: {duration: {mean: 3 h, spread: 10 %}, axis: gradient, field: food}
+    cycle: {duration: {mean: 90 min, spread: 10 %}, axis: gradient, field: food}
   row:
     like: skin
-    cycle: {duration: {mean: 3 h, spread: 10 %}, axis: long, axis_spread: 10 deg}
+    cycle: {duration: {mean: 90 min, spread: 10 %}, axis: long, axis_spread: 10 deg}
 fields:
   food: {diffusion: 1e-9 m^2/s, initial: 0.5 mM, voxel: 8 um, boundary: {x_low: 0.1 mM, x_high: 0.9 mM}}
 initial:
@@ -41,7 +41,7 @@ output: {report: false}
 // One test: the reference is run once.
 TEST(LookingAround, GivesTheSameBitsOnThreadsAndRanksAndOverARestart) {
   const TestFolder folder;
-  const auto reference = expect_same_bits_everywhere(folder, kStudy, "30 min");
+  const auto reference = expect_same_bits_everywhere(folder, kStudy, "15 min");
   EXPECT_GE(reference["shells"].get<int>(), 12);
   EXPECT_GT(reference["cells"].get<int>(), 70) << "and divisions";
 }

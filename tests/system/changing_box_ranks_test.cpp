@@ -10,23 +10,23 @@ namespace {
 constexpr const char* kStudy = R"(schema: 1
 study: box
 seed: 5
-time: {end: 1 h, output: 10 min, checkpoint: 10 min}
+time: {end: 30 min, output: 5 min, checkpoint: 5 min}
 domain:
-  size: [44 um, 44 um, 44 um]
+  size: [35 um, 35 um, 35 um]
   boundary: periodic
-  course: [{time: 5 min, volume: 1}, {time: 35 min, volume: 0.7}, {time: 50 min, volume: 0.7}, {time: 1 h, volume: 0.8}]
+  course: [{time: 5 min, volume: 1}, {time: 18 min, volume: 0.7}, {time: 24 min, volume: 0.7}, {time: 30 min, volume: 0.8}]
 cell_types:
   cell:
     radius: {mean: 5 um, spread: 5 %}
-    cycle: {duration: {mean: 3 h, spread: 10 %}}
-    migration: {speed: 20 um/h, persistence: 10 min}
+    cycle: {duration: {mean: 60 min, spread: 10 %}}
+    migration: {speed: 40 um/h, persistence: 5 min}
     dcm: {nodes: 42, nucleus: {kind: rigid, radius: 2 um}}
 contact: {range: 1 um}
 initial:
-  - {type: cell, count: 50, fill: box, size: [44 um, 44 um, 44 um], start_volume: 60 %, inflate: 4 min, age: random}
+  - {type: cell, count: 24, fill: box, size: [35 um, 35 um, 35 um], start_volume: 60 %, inflate: 4 min, age: random}
 coupling:
   regions:
-    - {name: left, shape: half_space, center: [-10 um, 0 um, 0 um], normal: [1, 0, 0], as: dcm, margin: 2 um}
+    - {name: left, shape: half_space, center: [-11 um, 0 um, 0 um], normal: [1, 0, 0], as: dcm, margin: 1 um}
     - {name: next_to_it, shape: neighbours, of: left, cells: 1, as: dcm}
 output: {report: false}
 )";
@@ -34,10 +34,10 @@ output: {report: false}
 // One test: the reference is run once.
 TEST(ChangingBox, GivesTheSameBitsOnThreadsAndRanksAndOverARestartInItsCourse) {
   const TestFolder folder;
-  const auto reference = expect_same_bits_everywhere(folder, kStudy, "20 min");  // where the box is on its way
+  const auto reference = expect_same_bits_everywhere(folder, kStudy, "10 min");  // where the box is on its way
   EXPECT_GT(reference["shells"].get<int>(), 5);
   EXPECT_GT(reference["spheres"].get<int>(), 5);
-  EXPECT_GT(reference["cells"].get<int>(), 50) << "and divisions";
+  EXPECT_GT(reference["cells"].get<int>(), 24) << "and divisions";
 }
 
 }  // namespace

@@ -127,11 +127,11 @@ TEST(Interior, GivesTheSameBitsOnRanksAndOverARestart) { expect_same_bits_on_ran
 TEST(OutsideLaw, PromotesTheSameCellsOnThreadsAndRanksAndOverARestart) {
   const TestFolder folder;
   folder.write("study.yaml",
-               "schema: 1\nstudy: range\nseed: 3\ntime: {end: 30 min, output: 5 min, checkpoint: 5 min}\n"
+               "schema: 1\nstudy: range\nseed: 3\ntime: {end: 12 min, output: 2 min, checkpoint: 2 min}\n"
                "domain: {size: [90 um, 90 um, 90 um], boundary: periodic}\n"
                "cell_types: {cell: {radius: {mean: 6 um, spread: 8 %}, cycle: {model: none}, dcm: {nodes: 42}}}\n"
-               "initial:\n  - {type: cell, count: 40, fill: box, size: [40 um, 40 um, 30 um]}\ncontact: {range: 1.2 um}\n"
-               "coupling: {max_shells: 25, triggers: [{promote: outside_law > 0.85, demote: outside_law < 0.7, hold: 5 min}]}\noutput: "
+               "initial:\n  - {type: cell, count: 20, fill: box, size: [32 um, 32 um, 25 um]}\ncontact: {range: 1.2 um}\n"
+               "coupling: {max_shells: 12, triggers: [{promote: outside_law > 0.85, demote: outside_law < 0.7, hold: 5 min}]}\noutput: "
                "{report: false}\n");
   ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "one"}, folder.path(), on_ranks(0)).exit_code, 0);
   const json reference = info_of(folder / "one");
@@ -149,7 +149,7 @@ TEST(OutsideLaw, PromotesTheSameCellsOnThreadsAndRanksAndOverARestart) {
     ASSERT_EQ(run_morula({"run", "study.yaml", "--out", name}, folder.path(), on_ranks(ranks)).exit_code, 0);
     expect_same(name);
   }
-  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "broken", "--until", "15 min"}, folder.path(), on_ranks(2)).exit_code, 0);
+  ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "broken", "--until", "6 min"}, folder.path(), on_ranks(2)).exit_code, 0);
   ASSERT_EQ(run_morula({"resume", "broken"}, folder.path(), on_ranks(0)).exit_code, 0);
   expect_same("broken");
 }

@@ -96,7 +96,7 @@ std::string active_study() {
   return R"(schema: 1
 study: active
 seed: 5
-time: {end: 90 s, output: 15 s, checkpoint: 30 s, step: 5 s}
+time: {end: 60 s, output: 15 s, checkpoint: 15 s, step: 5 s}
 domain: {size: [160 um, 160 um, 160 um], boundary: open}
 contact:
   range: 1.2 um
