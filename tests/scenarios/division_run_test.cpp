@@ -188,13 +188,13 @@ TEST_F(DivisionRun, LeavesNoCellOfASpheroidWaiting) {
   run_whole(R"(schema: 1
 study: spheroid
 seed: 1
-time: {end: 8.5 h, output: 30 min, checkpoint: 4 h}
+time: {end: 170 min, output: 10 min, checkpoint: 80 min}
 domain: {size: [200 um, 200 um, 200 um]}
 cell_types:
   tumour:
     body: shell
     radius: 6 um
-    cycle: {duration: {mean: 18 h, spread: 10 %}, axis: random}
+    cycle: {duration: {mean: 6 h, spread: 10 %}, axis: random}
     inhibit_growth: {pressure_above: never}
     adhesion: {tumour: 1e-4 J/m^2}
     dcm: {nodes: 162, cortex: {elastic: none, tension: 0.1 mN/m}, bulk_modulus: 2.5 kPa}
@@ -309,9 +309,9 @@ TEST_F(DivisionRun, SheetsOfAnyLawDivideAgainAndAgain) {
   for (const char* law : {"neo_hooke", "skalak", "springs_with_area"}) {
     run_whole(std::string(R"(schema: 1
 study: sheets
-time: {end: 20 h, output: 10 h}
+time: {end: 267 min, output: 2 h}
 domain: {size: [100 um, 100 um, 100 um]}
-cell_types: {c: {radius: 6 um, body: shell, cycle: {duration: 9 h}, adhesion: {c: 0.05 mJ/m^2}, dcm: {cortex: {elastic: )") +
+cell_types: {c: {radius: 6 um, body: shell, cycle: {duration: 2 h}, adhesion: {c: 0.05 mJ/m^2}, dcm: {cortex: {elastic: )") +
                   law + R"(}}}}
 initial: [{type: c, at: [[0 um, 0 um, 0 um]]}]
 output: {report: false}

@@ -186,7 +186,7 @@ time: {end: 80 min, output: 1 min, checkpoint: 80 min}
 domain: {size: [200 um, 200 um, 200 um]}
 output: {report: false}
 cell_types:
-  cell: {radius: 6 um, cycle: {model: none}, adhesion: {cell: 1e-4 J/m^2}}
+  cell: {radius: 6 um, cycle: {model: none}, adhesion: {cell: 1e-4 J/m^2}, dcm: {nodes: 42}}
 initial:
   - {type: cell, count: 1500, fill: sphere, radius: 74 um, start_volume: 50 %, inflate: 20 min}
 coupling:

@@ -28,7 +28,7 @@ cell_types:
     body: sphere
     adhesion: {transit: 5e-5 J/m^2, stem: 5e-5 J/m^2}
     polarity: {start: [0, 1, 0], turning: 0 1/h}
-    dcm: {nodes: 162, cortex: {elastic: none, tension: 0.4 mN/m}}
+    dcm: {nodes: 42, cortex: {elastic: none, tension: 0.4 mN/m}}
   stem:
     radius: 4 um
     body: )" +
@@ -36,7 +36,7 @@ cell_types:
     polarity: {start: [0, 0, 1], turning: 0 1/h}
     cycle: {duration: 30 min, axis: fixed, direction: [1, 0, 0], daughters: )" +
          daughters + R"(}
-    dcm: {nodes: 162, cortex: {elastic: none, tension: 0.2 mN/m}}
+    dcm: {nodes: 42, cortex: {elastic: none, tension: 0.2 mN/m}}
 )" + more +
          "initial: [{type: stem, at: [" + places + "], age: birth}]\noutput: {report: false}\n";
 }
@@ -220,7 +220,7 @@ TEST(Fates, TellWhatCannotBe) {
   EXPECT_THAT(told(stem("{fates: [{share: 50 %, types: [transit]}]}", "shell", 2)), HasSubstr("a division has two daughters"));
   EXPECT_THAT(told(stem("{fates: [{share: 60 %, types: [stem, transit]}, {share: 60 %, types: [stem, stem]}]}", "shell", 2)),
               HasSubstr("more than all of its divisions"));
-  EXPECT_THAT(told(changed("nodes: 162, cortex: {elastic: none, tension: 0.4", "nodes: 642, cortex: {elastic: none, tension: 0.4",
+  EXPECT_THAT(told(changed("nodes: 42, cortex: {elastic: none, tension: 0.4", "nodes: 642, cortex: {elastic: none, tension: 0.4",
                            stem("{fates: [{share: 50 %, types: [stem, transit]}]}", "shell", 2))),
               HasSubstr("another number of nodes"));
   EXPECT_THAT(told(changed("polarity: {start: [0, 0, 1], turning: 0 1/h}", "color: sky", stem("{polarity: mirrored}", "shell", 2))),
