@@ -98,6 +98,7 @@ std::string channel(const std::string& dcm) {
   return R"(schema: 1
 study: channel
 time: {end: 10 min, output: 1 min, checkpoint: 5 min, step: 5 s}
+numerics: {max_displacement: 1}
 domain: {size: [140 um, 140 um, 140 um], boundary: open}
 cell_types:
   cell:

@@ -45,11 +45,11 @@ std::string cortexed(const std::string& keys) { return typed("dcm: {nodes: 42, c
 
 std::vector<Feature> bodies_and_walls() {
   return {
-      {"WallsAndSpheres", typed("cycle: {duration: 3 h}"),
-       "[{type: cell, count: 12, fill: sphere, radius: 18 um, center: [0 um, 0 um, -18 um]}]", "", "2 h", "20 min", "1 h", "wall"},
+      {"WallsAndSpheres", typed("cycle: {duration: 90 min}"),
+       "[{type: cell, count: 12, fill: sphere, radius: 18 um, center: [0 um, 0 um, -18 um]}]", "", "1 h", "10 min", "30 min", "wall"},
       {"WallsAndShells", kShell, "[{type: cell, at: [[-6 um, 0 um, -34 um], [6 um, 0 um, -34.2 um]], as: shell}]",
        kRange + "loads: {weight: {type: cell, body_force: [0 nN, 0 nN, -0.2 nN]}}\n", "10 min", "100 s", "300 s", "{z: wall}"},
-      {"PeriodicDomain", typed("cycle: {duration: 3 h}, migration: {speed: 20 um/h}"), kBall, "", "2 h", "20 min", "1 h", "periodic"},
+      {"PeriodicDomain", typed("cycle: {duration: 90 min}, migration: {speed: 40 um/h}"), kBall, "", "1 h", "10 min", "30 min", "periodic"},
       {"MovingObstacles", kShell,
        "[{type: cell, at: [[-8 um, 0 um, 0 um]], as: shell}, {type: cell, at: [[8 um, 0 um, 0 um]], as: sphere}]",
        kRange +
