@@ -386,17 +386,17 @@ TEST(TissueOnRanks, WithNucleiThatAreShellsHasTheSameBitsAsOnOne) {
   }
 }
 
-/// Why a step cannot be done is the same text on all ranks: that of the largest force that is left, of equals that of the first cell.
+/// Why a step cannot be done is the same text on all ranks: that of the worst, of equals that of the first cell.
 TEST(TissueOnRanks, TellTheWorstThatAnyOfThemHasFound) {
   const Comm world(MPI_COMM_WORLD);
   const int rank = world.rank(), last = world.size() - 1;
-  const auto found = [&](double left) {
+  const auto found = [&](double badness) {
     const CellId cell = CellId::founder(static_cast<std::uint64_t>(10 - rank));
-    return worst_of_all_ranks({std::string(static_cast<std::size_t>(rank + 1), 'x'), cell, true, left}, world);
+    return worst_of_all_ranks({std::string(static_cast<std::size_t>(rank + 1), 'x'), cell, true, badness}, world);
   };
   const StepFault rising = found(rank), falling = found(-rank), equal = found(2.0);
   EXPECT_EQ(rising.what.size(), static_cast<std::size_t>(last + 1));
-  EXPECT_EQ(rising.left, last);
+  EXPECT_EQ(rising.badness, last);
   EXPECT_EQ(falling.what.size(), 1u);
   EXPECT_EQ(falling.cell, CellId::founder(10));
   EXPECT_EQ(equal.cell, CellId::founder(static_cast<std::uint64_t>(10 - last)));
