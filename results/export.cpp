@@ -103,7 +103,16 @@ Result<std::string> surfaces_as_stl(const Snapshot& s, ShapeLibrary& library, st
 }
 
 Result<std::size_t> export_snapshots(const fs::path& results, const fs::path& folder, ExportFormat format, const ExportRange& range) {
-  MORULA_TRY_ASSIGN(const std::vector<SnapshotEntry> entries, list_snapshots(results));
+  MORULA_TRY_ASSIGN(std::vector<SnapshotEntry> entries, list_snapshots(results));
+  const std::size_t count = entries.size();
+  std::size_t seen = 0;
+  std::erase_if(entries, [&](const SnapshotEntry& entry) {
+    return entry.time < range.from || entry.time > range.to || seen++ % std::max<std::size_t>(range.every, 1) != 0;
+  });
+  if (entries.empty())
+    return Error{ErrorKind::kInput,
+                 "'" + results.string() + "' has no snapshot in this range of time (it has " + std::to_string(count) + " in all)",
+                 "see --from, --to and --every"};
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) return file_error(folder, "create folder", error.value());
@@ -111,9 +120,7 @@ Result<std::size_t> export_snapshots(const fs::path& results, const fs::path& fo
   std::vector<std::size_t> numbers;
   std::vector<double> times;
   std::vector<std::string> field_names;
-  std::size_t seen = 0;
   for (const SnapshotEntry& entry : entries) {
-    if (entry.time < range.from || entry.time > range.to || seen++ % std::max<std::size_t>(range.every, 1) != 0) continue;
     MORULA_TRY_ASSIGN(const Snapshot snapshot, read_snapshot(results, entry.index));
     if (format == ExportFormat::kVtk) {
       MORULA_TRY(write_vtk(snapshot, folder, entry.index));
@@ -128,10 +135,6 @@ Result<std::size_t> export_snapshots(const fs::path& results, const fs::path& fo
     if (field_names.empty())
       for (const Snapshot::Grid& grid : snapshot.fields) field_names.push_back(grid.name);
   }
-  if (numbers.empty())
-    return Error{ErrorKind::kInput,
-                 "'" + results.string() + "' has no snapshot in this range of time (it has " + std::to_string(entries.size()) + " in all)",
-                 "see --from, --to and --every"};
   if (format == ExportFormat::kVtk) MORULA_TRY(write_vtk_collections(folder, numbers, times, field_names));
   return numbers.size();
 }

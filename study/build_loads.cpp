@@ -52,6 +52,11 @@ void check_bodies(BuildContext& c, const std::string& name, const Place& place, 
   if (chosen && why != nullptr)
     c.diagnostics.error(520, place, who + " at chosen nodes, which a cell that " + why + " would not keep",
                         "use a load on the whole cell, or cells that stay as they are");
+  if (!chosen && may_change_body(c, load.type))
+    c.diagnostics.warning(
+        520, place,
+        who + ", which those of its cells that `coupling` makes spheres do not have: while they are spheres they bear nothing of it",
+        "use `body_force` or `trap` where all cells are meant");
 }
 
 /// The mark of the faces that bear the load; the type's shells must be able to carry it.
@@ -123,6 +128,11 @@ void build_motion_course(BuildContext& c, const draft::Obstacle& o, ObstacleSpec
   if (o.course.empty()) return;
   obstacle.direction = unit_axis(c, o.direction, "direction");
   obstacle.distance = build_course(c, o.course);
+  if (obstacle.distance.empty() || obstacle.distance.value.front() == 0.0) return;
+  const Given<double>& first = o.course.front().content.value;
+  c.diagnostics.error(510, first.place,
+                      "an obstacle begins where its shape says, and this course has it " + first.text + " from there at first",
+                      "`distance: 0 um` in the first point, and the shape where the obstacle begins");
 }
 
 void build_loads(BuildContext& c) {

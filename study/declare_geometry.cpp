@@ -112,7 +112,8 @@ void declare_obstacle(Section& s, draft::Obstacle& o) {
       {.name = "side",
        .doc = "Where the cells are: outside the surface, or inside it (a capsule, a mould). A smooth part of a surface bears a sphere "
               "in one place only, its nearest point, with the curvature that it has there, a hollow one where the smooth surface is that "
-              "its faces stand for: what is to be confined by a mould, a mouth or a tube as narrow as a cell is a shell.",
+              "its faces stand for; what another obstacle covers is no place to touch, so that obstacles which meet flush are one surface. "
+              "What is to be confined by a mould, a mouth or a tube as narrow as a cell is a shell.",
        .fallback = "outside",
        .words = {"outside", "inside"},
        .example = "inside",

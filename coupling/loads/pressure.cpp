@@ -81,6 +81,10 @@ std::vector<LawProblem> judge(const CellLoad& load, const Model& model) {
     if (load.gradient[static_cast<std::size_t>(axis)] != 0.0 && model.space.periodic(axis))
       out.push_back({570, "gradient", std::string("the pressure changes along ") + "xyz"[axis] + ", along which the domain is periodic",
                      "use `open` or `wall` faces"});
+  if (load.within && model.space.any_periodic())
+    out.push_back({570, "within.from",
+                   "the cylinder has no images beyond the periodic faces of the domain: cells there would not bear the pressure",
+                   "use `open` or `wall` faces"});
   if (load.within && norm2(load.high_end - load.low_end) == 0.0)
     out.push_back({302, "within.to", "'from' and 'to' are the same point", "give the two ends of the cylinder's axis"});
   return out;

@@ -113,6 +113,8 @@ class SphereContacts : public Term {
     std::uint32_t sphere, obstacle, part;
     SurfaceImage image{};  ///< of the obstacle
     bool attached = false, attached_next = false;
+    double clear = 0.0;  ///< no other obstacle is nearer to clear_at than this [µm]
+    Vec3d clear_at{};
     Vec3d normal{};
     std::optional<Support> support;  ///< where the sphere touched the obstacle at the start of the step, or came to it
     double distance = 0.0, force = 0.0, energy = 0.0, area = 0.0;
@@ -170,6 +172,8 @@ class SphereContacts : public Term {
   void set_element(SpherePairElement& element, const cbm::PairBlock& block, int lane) const;
   /// Where the part of the obstacle bears the sphere, seen from its centre: normal and distance of the pair. False: it does not (foot_on_part()).
   bool locate_rigid(const Scene& scene, RigidPair& pair) const;
+  /// Whether another obstacle covers the place where a sphere would touch this one.
+  bool find_covered(const Scene& scene, RigidPair& pair, const Foot& foot) const;
   void evaluate_rigid(const Scene& scene, std::size_t k);
   /// That of the obstacle, or of a wall of the domain.
   [[nodiscard]] std::size_t material_of(const RigidPair& pair) const;

@@ -1,10 +1,12 @@
 /// Obstacles that bear spheres: where they meet, and with which force (decisions 0023, 0075, 0087).
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "cbm/radius_on.h"
 #include "core/ball.h"
+#include "core/mesh/pseudonormal.h"
 #include "coupling/mechanics/own_contacts.h"
 #include "coupling/mechanics/sphere_contacts.h"
 
@@ -20,7 +22,40 @@ bool is_curved(const RigidSurface& surface) {
   });
 }
 
+constexpr double kOnSurface = 1e-3;  // a point nearer to a surface lies on it [µm]
+
+/// Whether the foot of p on an obstacle, `distance` from p, is no place of what there is to touch, because it lies as deep as `depth` in another obstacle: within that,
+/// or on it where that comes nearer to p, or as near and `comes_first` (floors that meet flush). p in the frame of the other.
+bool covers(const RigidSurface& other, double depth, const Vec3d& p, double distance, bool comes_first) {
+  constexpr double kTie = 1e-9;  // of distances
+  if (depth < -kOnSurface) return false;
+  const auto near = other.tree->nearest(p, distance * (1.0 + kTie));
+  if (!near) return false;
+  return depth > kOnSurface || comes_first || std::sqrt(near->closest.distance2) < distance * (1.0 - kTie);
+}
+
 }  // namespace
+
+bool SphereContacts::find_covered(const Scene& scene, RigidPair& pair, const Foot& foot) const {
+  if (!(foot.distance > 0.0) || layer().obstacles().size() < 2) return false;
+  const Vec3d place = foot.point + layer().obstacle_offset(pair.obstacle);
+  if (norm(place - pair.clear_at) < pair.clear) return false;
+  const Vec3d center = scene.position()[scene.bodies()[scene.first_sphere() + pair.sphere].first_point] - pair.image.shift;
+  bool covered = false;
+  double clear = std::numeric_limits<double>::infinity();
+  for (std::uint32_t o = 0; o < layer().obstacles().size(); ++o) {
+    if (o == pair.obstacle) continue;
+    const RigidSurface& other = layer().obstacles()[o];
+    const Vec3d offset = layer().obstacle_offset(o), there = place - offset;
+    const auto near = other.tree->nearest(there);
+    const double out = signed_distance(*other.topology, other.position, there, near->face, near->closest);
+    clear = std::min(clear, out - kOnSurface);
+    covered = covered || covers(other, -out, center - offset, foot.distance, o < pair.obstacle);
+  }
+  pair.clear_at = place;
+  pair.clear = std::ranges::any_of(model_.obstacles, &ObstacleSpec::moves) ? 0.0 : clear;
+  return covered;
+}
 
 void SphereContacts::note_curved_obstacles() {
   for (const RigidSurface& obstacle : layer().obstacles()) is_curved_.push_back(is_curved(obstacle));
@@ -39,7 +74,7 @@ bool SphereContacts::locate_rigid(const Scene& scene, RigidPair& pair) const {
   if (pair.support && pair.support->plane && (friction_is_frozen_ || pair.support->plane->from == from)) return meet_plane();
   const double reach = body.radius + layer().settings().sphere_reach + layer().settings().body_skin;
   const auto foot = foot_on_part(obstacle, pair.part, from, reach);
-  if (!foot) {
+  if (!foot || find_covered(scene, pair, *foot)) {
     if (!friction_is_frozen_) pair.support.reset();
     return false;
   }

@@ -86,11 +86,16 @@ std::vector<double> values_at(const ColumnOfRuns& columns, const Rows& rows, std
   return out;
 }
 
-/// Where the means of two groups are farthest apart.
-std::size_t farthest(const std::vector<double>& a, const std::vector<double>& b) {
+/// Where the means of two groups are judged: where they are farthest apart, or at the last time; of times at which both have a value, if there are any.
+std::size_t place_to_judge(const std::vector<double>& a, const std::vector<double>& b, bool every) {
   std::size_t at = a.size() - 1;
-  for (std::size_t t = 0; t < a.size(); ++t)
-    if (std::abs(a[t] - b[t]) > std::abs(a[at] - b[at])) at = t;
+  double most = -1.0;
+  for (std::size_t t = 0; t < a.size(); ++t) {
+    const double apart = std::abs(a[t] - b[t]);
+    if (std::isnan(apart) || (every && apart < most)) continue;
+    most = apart;
+    at = t;
+  }
   return at;
 }
 
@@ -101,9 +106,10 @@ ComparedColumn compared(const std::vector<RunGroup>& groups, const ColumnOfRuns&
   for (std::size_t g = 0; g < groups.size(); ++g)
     for (std::size_t t = 0; t < times.size(); ++t) mean[g].push_back(mean_of_sample(values_at(columns, rows, g, t)));
   double largest = 0.0;
-  for (const double m : mean[0]) largest = std::max(largest, std::abs(m));
+  for (const double m : mean[0])
+    if (!std::isnan(m)) largest = std::max(largest, std::abs(m));
   for (std::size_t g = 1; g < groups.size(); ++g) {
-    const std::size_t at = request.every ? farthest(mean[0], mean[g]) : times.size() - 1;
+    const std::size_t at = place_to_judge(mean[0], mean[g], request.every);
     const double size = request.every ? largest : std::abs(mean[0][at]);
     out.differences.push_back(difference_of(values_at(columns, rows, 0, at), values_at(columns, rows, g, at), size, request.within));
     out.differences.back().group = groups[g].name;
@@ -131,8 +137,12 @@ void tell_ends(const std::vector<RunGroup>& groups, const Comparison& comparison
 Result<Comparison> compare(const std::vector<RunGroup>& groups, const CompareRequest& request) {
   Comparison out;
   out.times = common_times(groups, request.from);
-  if (out.times.empty())
-    return Error{ErrorKind::kInput, "the runs have no output at the same time", "give their studies the same `time: {output: ...}`"};
+  if (out.times.empty()) {
+    const std::vector<double> at_all = common_times(groups, 0.0);
+    if (at_all.empty())
+      return Error{ErrorKind::kInput, "the runs have no output at the same time", "give their studies the same `time: {output: ...}`"};
+    return Error{ErrorKind::kInput, "the last output that all runs have is at " + time_text(at_all.back()), "an earlier `--from`"};
+  }
   tell_ends(groups, out, out.notes);
   std::vector<const Settings*> studies;
   for (const RunGroup& group : groups) studies.push_back(&group.runs[0].settings);

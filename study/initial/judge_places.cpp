@@ -73,6 +73,16 @@ class Judge {
     return cell.radius() * (1.0 + 0.046 * 42.0 / static_cast<double>(study_.model.types[cell.row.type].shell_nodes));
   }
 
+  /// What comes of an overlap beyond `limits.overlap`: a capped start passes it, its check does not.
+  [[nodiscard]] std::string too_deep() const {
+    return capped_ ? ": the check INV.4 counts the start, too, and will fail" : ": the run would stop at its limit";
+  }
+  /// How cells that begin so deep come out [µm].
+  [[nodiscard]] std::string let_apart(double depth) const {
+    const std::string limit = "`limits: {overlap: " + short_number(std::ceil(1.2 * depth * 10.0) / 10.0) + " um}`";
+    return capped_ ? limit : "let them come apart first with `numerics: {start_cap: auto}` and " + limit;
+  }
+
   void add(int code, std::size_t entry, std::size_t other, double depth, PlaceProblem problem) {
     Worst& worst = worst_[{static_cast<std::size_t>(code), entry, other}];
     ++worst.count;
@@ -114,13 +124,14 @@ class Judge {
       return;
     }
     const double limit = study_.model.limits.overlap;
-    if (capped_ || meshes) return;
+    if (meshes && study_.initial[entry].meshes.overlap <= limit) return;
     if (balls && depth > kCertain * limit)
-      return add(597, entry, other, depth,
-                 {.text = "cells at " + place_text(center_[i]) + " and " + place_text(center_[j]) + " overlap by " + rounded(depth) +
-                          ": the run would stop at its limit",
-                  .help = "place them " + short_number(std::ceil(10.0 * touch) / 10.0) +
-                          " um apart, or let them come apart first with `numerics: {start_cap: auto}`"});
+      return add(
+          597, entry, other, depth,
+          {.text = "cells at " + place_text(center_[i]) + " and " + place_text(center_[j]) + " overlap by " + rounded(depth) + too_deep(),
+           .help = "place them " + short_number(std::ceil(10.0 * touch) / 10.0) + " um apart, or " + let_apart(depth),
+           .is_warning = capped_});
+    if (capped_) return;
     if (bound_[i] + bound_[j] - apart > limit) suspects_.insert({i, j});
   }
 
@@ -143,11 +154,13 @@ class Judge {
                   .help = vessel ? "with `side: inside` cells begin within the surface" : "place it outside, or write `side: inside`"});
     }
     const double limit = study_.model.limits.overlap, depth = radius_[i] - apart;
-    if (!is_shell(cells_[i]) || capped_) return;
+    if (!is_shell(cells_[i])) return;
     if (is_ball(cells_[i]) && depth > kCertain * limit)
       return add(597, entry, surface, depth,
-                 {.text = who + " reaches " + rounded(depth) + " deep into " + around_.name(surface) + ": the run would stop at its limit",
-                  .help = "move it away, or let it come out first with `numerics: {start_cap: auto}`"});
+                 {.text = who + " reaches " + rounded(depth) + " deep into " + around_.name(surface) + too_deep(),
+                  .help = "move it away, or " + let_apart(depth),
+                  .is_warning = capped_});
+    if (capped_) return;
     if (bound_[i] - apart > limit) suspects_.insert({i});
   }
 
@@ -186,7 +199,7 @@ class Judge {
         {.text = "the surface of the cell at " + place_text(at) + " begins " + rounded(overlap.value) +
                  " deep in another one, an obstacle or a wall: the run would stop at its limit (" +
                  short_number(study_.model.limits.overlap) + " um)",
-         .help = "place it further away, or let it come out first with `numerics: {start_cap: auto}`"});
+         .help = "place it further away, or " + let_apart(overlap.value)});
     return {};
   }
 

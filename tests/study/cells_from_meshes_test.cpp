@@ -174,7 +174,11 @@ TEST_F(CellsFromMeshes, RefuseSurfacesThatAreNoneNamingCellAndPlace) {
   folder_.write("deep.vtk", as_vtk(cells));
   EXPECT_THAT(bad("file: deep.vtk, scale: 1 um"), AllOf(HasSubstr("deep.vtk, cell 0 reaches 1.8"), HasSubstr("um into deep.vtk, cell 1"),
                                                         HasSubstr("through face"), HasSubstr("[E546]")));
-  EXPECT_THAT(good("file: deep.vtk, scale: 1 um, overlap: 2.1 um").notes, Contains(HasSubstr("deepest overlap at the start")));
+  EXPECT_THAT(bad("file: deep.vtk, scale: 1 um, overlap: 2.1 um"), AllOf(HasSubstr("would stop at its limit"), HasSubstr("[E597]")));
+  const auto allowed =
+      test::read(mesh_study("file: deep.vtk, scale: 1 um, overlap: 2.1 um") + "limits: {overlap: 2.1 um}\n", {}, folder_.path());
+  ASSERT_TRUE(allowed.ok()) << allowed.error().text();
+  EXPECT_THAT(allowed->notes, Contains(HasSubstr("deepest overlap at the start")));
 }
 
 TEST_F(CellsFromMeshes, RefuseFilesThatCannotBeRead) {

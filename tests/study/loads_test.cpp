@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -197,6 +198,36 @@ TEST(Loads, SuctionActsWithinACylinder) {
   EXPECT_TRUE(study->model.loads[0].within);
   EXPECT_DOUBLE_EQ(study->model.loads[0].size, -0.05);
   EXPECT_NE(test::errors_of(test::changed("to: [0 um, 0 um, 9 um]", "to: [0 um, 0 um, 4 um]", text)).find("same point"), std::string::npos);
+}
+
+TEST(Loads, ThatCellsLoseAsSpheresAreTold) {
+  const auto told = [](const std::string& load, const std::string& coupling) {
+    const auto study = test::read(
+        "schema: 1\nstudy: lost\ntime: {end: 1 h}\ndomain: {size: [80 um, 80 um, 80 um]}\n"
+        "cell_types: {cell: {radius: 6 um, body: shell}}\ninitial: [{type: cell, at: [[0 um, 0 um, 0 um]]}]\n"
+        "loads: {l: {type: cell, " +
+        load + "}}\n" + coupling);
+    return study.ok() ? study->warnings.text() : study.error().text();
+  };
+  const std::string region = "coupling: {regions: [{name: r, shape: everything, as: sphere, from: 20 min}]}\n";
+  EXPECT_THAT(told("pressure: {value: 100 Pa}", region),
+              testing::AllOf(testing::HasSubstr("while they are spheres they bear nothing of it"), testing::HasSubstr("[E520]")));
+  EXPECT_THAT(told("pressure: {value: 100 Pa}", ""), testing::Not(testing::HasSubstr("E520")));
+  EXPECT_THAT(told("body_force: [1 nN, 0 nN, 0 nN]", region), testing::Not(testing::HasSubstr("E520")));
+}
+
+TEST(Loads, SuctionHasNoImages) {
+  const std::string within =
+      "schema: 1\nstudy: images\ntime: {end: 1 h}\ndomain: {size: [80 um, 80 um, 80 um], boundary: {x: periodic}}\n"
+      "cell_types: {cell: {radius: 6 um, body: shell}}\ninitial: [{type: cell, at: [[0 um, 0 um, 0 um]]}]\n"
+      "loads: {l: {type: cell, pressure: {value: 1 Pa, within: {from: [0 um, 0 um, 0 um], to: [9 um, 0 um, 0 um], "
+      "radius: 3 um}}}}\n";
+  EXPECT_NE(test::errors_of(within).find("[E570]"), std::string::npos);
+}
+
+TEST(Obstacles, BeginWhereTheirShapeSays) {
+  const std::string jumps = test::changed("course: [{time: 0 s, distance: 0 um}", "course: [{time: 0 s, distance: 2 um}", kStudy);
+  EXPECT_NE(test::errors_of(jumps).find("this course has it 2 um from there at first"), std::string::npos);
 }
 
 TEST(Loads, SpringsWithANegativeFactorAreRefused) {

@@ -109,7 +109,7 @@ TEST_F(Compare, RefusesWhatCannotBeCompared) {
   run("again", "1", {"title=again"});
   refused({"a=s1,again", "b=t1"}, 2, "have the seed 1");
   run("late", "1", {"time.output=7 min", "time.end=7 min"});
-  refused({"s1", "late", "--from", "6min"}, 2, "no output at the same time");
+  refused({"s1", "late", "--from", "6min"}, 2, "the last output that all runs have is at 0");
   run("units", "2", {"cell_types.cell.radius.mean=6 um"});
   const std::string series = read_text(folder_ / "units/series.csv");
   folder_.write("units/series.csv", std::string(series).replace(series.find("[um^3]"), 6, "[mm^3]"));

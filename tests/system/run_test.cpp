@@ -455,6 +455,7 @@ TEST(Results, AreExportedAndPlotted) {
     EXPECT_EQ(run_morula({"export", "run", format}, folder.path()).exit_code, 3) << "nothing is overwritten";
   }
   EXPECT_EQ(run_morula({"export", "run", "csv", "--from", "20 h", "--out", "none"}, folder.path()).exit_code, 2);
+  EXPECT_FALSE(fs::exists(folder / "none")) << "what failed leaves nothing behind";
   const Outcome some = run_morula({"plot", "run", "--format", "svg"}, folder.path());
   EXPECT_EQ(some.exit_code, 0) << some.all();
   EXPECT_THAT(some.out, HasSubstr(".svg"));
