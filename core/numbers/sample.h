@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <limits>
 #include <span>
 
@@ -18,6 +19,12 @@ inline double variance_of_sample(std::span<const double> values) {
   double sum = 0.0;
   for (const double v : values) sum += (v - mean) * (v - mean);
   return sum / static_cast<double>(values.size() - 1);
+}
+
+/// A spread or an error, 0 where it is nothing but the rounding of the value that it belongs to: as it is told, not as it is judged.
+inline double told_spread(double spread, double value) {
+  constexpr double kRounding = 1e-9;  // part of the value
+  return spread < kRounding * std::abs(value) ? 0.0 : spread;
 }
 
 }  // namespace morula

@@ -148,8 +148,8 @@ class NewtonStep {
   double force_norm_ = 0.0;      ///< of the residual at the start; where obstacles have moved, of the forces before that
   double scale_ = 1.0;           ///< that over the residual at the start
   StepReport report_;
-  std::optional<CellId> through_;  ///< a cell of this rank that a trial would have moved through another
-  MovedAgainst against_;           ///< of the last search that failed
+  CellId through_;        ///< of this rank, that a trial would have moved through another; of none not valid
+  MovedAgainst against_;  ///< of the last search that failed
 };
 
 Residual NewtonStep::measure(std::optional<Residual>&& old) {
@@ -184,7 +184,7 @@ bool NewtonStep::wants_too_much(const Direction& direction, double longest) cons
 bool NewtonStep::is_sound(const Residual& trial) {
   const std::optional<CellId> through = find_crossed(work_, tissue_, start());
   report_.crossings += through.has_value();
-  if (through) through_ = through;
+  through_ = through.value_or(through_);
   return work_.setting.comm.all(std::isfinite(trial.phi) && !find_fault(work_, tissue_).has_value() && !through);
 }
 
@@ -305,8 +305,8 @@ Result<bool, StepFault> NewtonStep::thaw(const Direction& newton) {
 }
 
 StepFault NewtonStep::stuck() const {
-  const bool crossing = work_.setting.comm.any(report_.crossings > 0);
-  const CellId named = crossing ? through_.value_or(CellId()) : against_.cell;
+  const bool crossing = work_.setting.comm.any(through_.valid());
+  const CellId named = crossing ? through_ : against_.cell;
   const bool is_named = work_.setting.comm.any(named.valid());  // else the cell with the largest force
   if (const auto shape = find_fault(work_, tissue_)) return *shape;
   StepFault fault{crossing ? "no step lowers the energy without a surface passing through another" : "no step lowers the energy", named};

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/numbers/number_text.h"
+#include "core/numbers/sample.h"
 #include "report/pictures/curves.h"
 #include "report/report.h"
 #include "report/run_plots.h"
@@ -112,8 +113,7 @@ Status add_cells(const RunGroup& group, const std::shared_ptr<const Laws>& laws,
 }  // namespace
 
 std::string value_words(const GroupValue& value) {
-  constexpr double kRounding = 1e-9;  // a spread that is a smaller part of its value is told as none
-  const double spread = value.spread < kRounding * std::abs(value.mean) ? 0.0 : value.spread;
+  const double spread = told_spread(value.spread, value.mean);
   return number_text("%.4g", value.mean) + (std::isnan(spread) ? "" : " ± " + number_text("%.2g", spread));
 }
 

@@ -138,9 +138,10 @@ Counts count_cells(const Study& study, Tissue& tissue, double time, double swoll
     ++out.of_type[tissue.cells.rows[body.row].type];
     center.push_back(center_of(tissue, body));
   }
-  const Vec3d middle = std::accumulate(center.begin(), center.end(), Vec3d{}) * (1.0 / std::max(1.0, static_cast<double>(center.size())));
-  if (swollen != 1.0)
+  if (swollen != 1.0) {
+    const Vec3d middle = std::accumulate(center.begin(), center.end(), Vec3d{}) * (1.0 / std::max(1.0, static_cast<double>(center.size())));
     for (Vec3d& c : center) c = middle + (c - middle) * swollen;
+  }
   Model model = study.model;
   model.box_volume = {};  // the cells are where they are at first, and so is the box
   for (const SwapOrder& order : choose_swaps(model, tissue, {center}, Comm())) {

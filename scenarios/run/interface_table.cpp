@@ -3,17 +3,16 @@
 #include <cmath>
 
 #include "core/numbers/number_text.h"
+#include "core/numbers/sample.h"
 #include "scenarios/measures/interface_layers.h"
 #include "scenarios/run/progress.h"
 
 namespace morula::scenarios {
 namespace {
 
-constexpr double kRounding = 1e-9;  // errors that are a smaller part of their value are told as none
-
 std::string text_of(const LayerMean& value, double scale) {
   if (std::isnan(value.mean)) return "–";
-  const double error = value.error < kRounding * std::abs(value.mean) ? 0.0 : scale * value.error;
+  const double error = scale * told_spread(value.error, value.mean);
   return number_text("%.4g", scale * value.mean) + (std::isnan(error) ? "" : " ± " + number_text(error < 10.0 ? "%.1g" : "%.0f", error));
 }
 

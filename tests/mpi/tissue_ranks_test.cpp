@@ -238,6 +238,7 @@ TEST(TissueOnRanks, PromotesWithTheSameBitsAsOnOne) {
   Ledger ledger;
   const auto together = run(model, world, 20, 1, nullptr, &ledger);
   EXPECT_GE(ledger.promotions, 8u);
+  expect_same(together, run(model, alone, 20, 1));
   expect_same(together, run(model, alone, 20, 2));
 }
 

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/system/morula_command.h"
+#include "tests/system/run_info.h"
 #include "tests/system/studies.h"
 
 namespace morula::test {
@@ -19,8 +20,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::AllOf;
 using testing::HasSubstr;
-
-json info_of(const fs::path& run) { return json::parse(run_morula({"info", run.string(), "--json"}, run.parent_path()).out); }
 
 std::vector<fs::path> checkpoints_of(const fs::path& run) {
   std::vector<fs::path> out(fs::directory_iterator(run / "checkpoints"), fs::directory_iterator{});

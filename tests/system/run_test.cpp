@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/system/morula_command.h"
+#include "tests/system/run_info.h"
 #include "tests/system/studies.h"
 
 namespace morula::test {
@@ -22,12 +23,6 @@ std::vector<std::string> lines_of(const std::string& text) {
   std::istringstream stream(text);
   for (std::string line; std::getline(stream, line);) lines.push_back(line);
   return lines;
-}
-
-json info_of(const fs::path& run) {
-  const Outcome outcome = run_morula({"info", run.string(), "--json"}, run.parent_path());
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.all();
-  return json::parse(outcome.out);
 }
 
 TEST(Run, MakesTheFolderThatThePagePromises) {
@@ -328,19 +323,9 @@ TEST(Run, ThatCrossesALimitFailsWithExitFour) {
   EXPECT_FALSE(fs::is_empty(folder / "run/checkpoints")) << "there is a state to look at";
 }
 
-constexpr const char* kLoneCell = R"(schema: 1
-study: lone
-time: {end: 2 min, output: 20 s, checkpoint: 20 s}
-domain: {size: [60 um, 60 um, 60 um]}
-cell_types: {a: {radius: 6 um, body: shell}}
-initial:
-  - {type: a, at: [[0 um, 0 um, 0 um]]}
-output: {report: false}
-)";
-
 TEST(Run, OfACellAtRestPassesItsChecks) {  // what its energy still rises by is rounding
   const TestFolder folder;
-  folder.write("study.yaml", kLoneCell);
+  folder.write("study.yaml", lone_cell_study());
   const Outcome outcome = run_morula({"run", "study.yaml", "--out", "run"}, folder.path());
   EXPECT_EQ(outcome.exit_code, 0) << outcome.all();
   EXPECT_THAT(outcome.all(), HasSubstr("checks passed"));
@@ -349,7 +334,8 @@ TEST(Run, OfACellAtRestPassesItsChecks) {  // what its energy still rises by is 
 
 TEST(Run, SaysWhenNoFaceBearsALoad) {
   const TestFolder folder;
-  const std::string marked = changed(kLoneCell, "output: {report", R"(marks: {top: {types: [a], cone: {axis: [0, 0, 1], angle: 40 deg}}}
+  const std::string marked =
+      changed(lone_cell_study(), "output: {report", R"(marks: {top: {types: [a], cone: {axis: [0, 0, 1], angle: 40 deg}}}
 loads: {wind: {type: a, patch: {force: [0 nN, 0.1 nN, 0 nN], marked: top}}}
 output: {report)");
   folder.write("study.yaml", marked);
@@ -360,7 +346,7 @@ output: {report)");
 
 TEST(Resume, UntilATimeThatHasPassedIsRefused) {
   const TestFolder folder;
-  folder.write("study.yaml", kLoneCell);
+  folder.write("study.yaml", lone_cell_study());
   ASSERT_EQ(run_morula({"run", "study.yaml", "--out", "run", "--until", "1 min"}, folder.path()).exit_code, 0);
   const Outcome outcome = run_morula({"resume", "run", "--until", "40 s"}, folder.path());
   EXPECT_EQ(outcome.exit_code, 2) << outcome.all();
@@ -371,63 +357,11 @@ TEST(Resume, UntilATimeThatHasPassedIsRefused) {
   EXPECT_EQ(run_morula({"resume", "run", "--until", "80 s"}, folder.path()).exit_code, 0);
 }
 
-/// Two default shells, 3 um deep in each other.
-std::string deep_cells(const std::string& numerics) {
-  const std::string deep = changed(kLoneCell, "[[0 um, 0 um, 0 um]]", "[[0 um, 0 um, 0 um], [9 um, 0 um, 0 um]]");
-  return changed(deep, "initial:", "numerics: {" + numerics + "}\nlimits: {overlap: 4 um}\ninitial:");
-}
-
-TEST(CappedStart, OfItsOwnDepthLetsDeepCellsOutUnfolded) {
-  const TestFolder folder;
-  folder.write("study.yaml", deep_cells("start_cap: auto"));
-  const Outcome outcome = run_morula({"run", "study.yaml", "--out", "run"}, folder.path());
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.all();
-  const auto series = read_text(folder / "run/series.csv");
-  const auto column_of = [](const std::string& row, std::size_t column) {
-    std::size_t at = 0;
-    for (; column > 0; --column) at = row.find(',', at) + 1;
-    return row.substr(at, row.find_first_of(",\n", at) - at);
-  };
-  const std::string header = series.substr(0, series.find('\n'));
-  const auto overlap =
-      static_cast<std::size_t>(std::count(header.begin(), header.begin() + static_cast<long>(header.find(",overlap [um]") + 1), ','));
-  EXPECT_GT(std::stod(column_of(series.substr(header.size() + 1), overlap)), 2.9);
-  EXPECT_LT(std::stod(column_of(series.substr(series.rfind('\n', series.size() - 2) + 1), overlap)), 0.1);
-}
-
-TEST(CappedStart, ThatFoldsSoftMeshesSaysWhatDoesNot) {
-  const TestFolder folder;
-  folder.write("study.yaml", deep_cells("start_cap: 0.2 um"));
-  const Outcome outcome = run_morula({"run", "study.yaml", "--out", "run"}, folder.path());
-  EXPECT_EQ(outcome.exit_code, 4) << outcome.all();
-  EXPECT_THAT(outcome.err, HasSubstr("start_cap: auto"));
-  // The state at which it ended is the last row and the last snapshot, once also where the run goes on from there and ends again.
-  const double ended = info_of(folder / "run")["time"];
-  ASSERT_GT(ended, 0.0);
-  const std::string series = read_text(folder / "run/series.csv");
-  EXPECT_EQ(std::stod(series.substr(series.rfind('\n', series.size() - 2) + 1)), ended);
-  EXPECT_EQ(run_morula({"resume", "run"}, folder.path()).exit_code, 4);
-  EXPECT_EQ(read_text(folder / "run/series.csv"), series);
-}
-
-TEST(CappedStart, ThatDoesNotEndInItsTimeStopsTheRun) {
-  const TestFolder folder;  // the cells need about a minute
-  folder.write("study.yaml", deep_cells("start_cap: auto, start_cap_within: 20 s"));
-  const Outcome failed = run_morula({"run", "study.yaml", "--out", "run"}, folder.path());
-  ASSERT_EQ(failed.exit_code, 4) << failed.all();
-  EXPECT_THAT(failed.err, AllOf(HasSubstr("the capped start has not ended by"), HasSubstr("[E662]"), HasSubstr("start_cap_within")));
-  const Outcome again = run_morula({"resume", "run"}, folder.path());
-  EXPECT_EQ(again.exit_code, 4) << "it is no better for a second try\n" << again.all();
-  EXPECT_THAT(again.all(), HasSubstr("the run had ended with an error, and goes on unchanged: the capped start has not ended"));
-  const Outcome longer = run_morula({"resume", "run", "--set", "numerics.start_cap_within=10 min", "--out", "longer"}, folder.path());
-  EXPECT_EQ(longer.exit_code, 0) << longer.all();
-}
-
 TEST(Check, NeverSaysOkWhereTheRunRefuses) {
   const TestFolder folder;  // just within and just beyond the limit of 0.3 um
   for (const char* apart : {"11.9 um", "11.75 um", "11.65 um", "11.45 um", "9 um"}) {
     folder.write("study.yaml",
-                 changed(kLoneCell, "[[0 um, 0 um, 0 um]]", std::string("[[0 um, 0 um, 0 um], [") + apart + ", 0 um, 0 um]]"));
+                 changed(lone_cell_study(), "[[0 um, 0 um, 0 um]]", std::string("[[0 um, 0 um, 0 um], [") + apart + ", 0 um, 0 um]]"));
     const int checked = run_morula({"check", "study.yaml"}, folder.path()).exit_code;
     const Outcome run = run_morula({"run", "study.yaml", "--until", "2 s"}, folder.path());
     EXPECT_TRUE(checked == 0 || checked == 2);

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "tests/system/morula_command.h"
+#include "tests/system/run_info.h"
 #include "tests/system/studies.h"
 
 namespace morula::test {
@@ -18,8 +19,6 @@ using testing::HasSubstr;
 
 /// A study that takes some seconds, with checkpoints at every output.
 std::string long_study() { return changed(changed(sphere_study(), "end: 2 h", "end: 200 h"), "checkpoint: 30 min", "checkpoint: 10 min"); }
-
-json info_of(const fs::path& run) { return json::parse(run_morula({"info", run.string(), "--json"}, run.parent_path()).out); }
 
 /// Starts a long run, waits until it is well under way, sends the signal.
 Outcome signalled(const TestFolder& folder, int signal) {

@@ -183,6 +183,18 @@ output: {report: false}
 )";
 }
 
+std::string lone_cell_study() {
+  return R"(schema: 1
+study: lone
+time: {end: 2 min, output: 20 s, checkpoint: 20 s}
+domain: {size: [60 um, 60 um, 60 um]}
+cell_types: {a: {radius: 6 um, body: shell}}
+initial:
+  - {type: a, at: [[0 um, 0 um, 0 um]]}
+output: {report: false}
+)";
+}
+
 std::string calibrated_study() {
   return "schema: 1\nstudy: small\ntime: {end: 1 h}\ndomain: {size: [80 um, 80 um, 80 um], boundary: open}\n"
          "cell_types: {small: {radius: 5 um, dcm: {nodes: 42}}}\ninitial: [{type: small, at: [[0 um, 0 um, 0 um]]}]\n";

@@ -17,6 +17,8 @@ namespace morula::test {
 [[nodiscard]] std::string moulded_study();
 /// Shells of few nodes, all else default: type `small`, to be calibrated in seconds.
 [[nodiscard]] std::string calibrated_study();
+/// One default shell at rest, two minutes.
+[[nodiscard]] std::string lone_cell_study();
 /// A text with the first `from` replaced by `to`; a test failure when it does not hold `from`.
 [[nodiscard]] std::string changed(std::string text, const std::string& from, const std::string& to);
 
