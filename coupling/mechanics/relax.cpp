@@ -12,7 +12,7 @@ namespace morula {
 namespace {
 
 constexpr double kFirstStep = 0.1;      // [s]
-constexpr double kLongestStep = 30.0;   // [s]
+constexpr double kLongestStep = 120.0;  // [s]
 constexpr double kShortestStep = 1e-4;  // [s]
 constexpr double kFirstCap = 1e-3;      // δ of the capped traction at first [µm] ...
 constexpr double kFirstDepth = 1.0;     // overlap that is looked for at first [µm]
@@ -20,8 +20,8 @@ constexpr double kSeenPart = 0.5;       // of it that may be found: where surfac
 constexpr double kLastCap = 0.1;        // ... and at most
 constexpr double kRaiseCap = 1.08;      // from step to step: 60 steps from the first to the last; with 30, 470 of a group of 500 are stuck
 constexpr int kBondingSteps = 20;       // over which adhesion and friction come in
-constexpr double kFarStep = 0.1;        // a step is chosen to move nodes not much further [µm]
-constexpr double kAtRest = 6e-3;        // displacement of a longest step that counts as rest: 10⁻³ R a minute for R = 6 to 12 [µm]
+constexpr double kFarStep = 0.2;        // a step is chosen to move nodes not much further [µm]
+constexpr double kAtRest = 0.024;       // displacement of a longest step that counts as rest: 10⁻³ R a minute for R = 6 to 12 [µm]
 constexpr int kMostSteps = 200;
 constexpr double kHoldsMiddle = 100.0;  // stiffness over adhesion: that draws a cell with up to 1.5πWR, 0.05 R of such a spring
 constexpr double kFirstOfMarch = 2.0;   // [s]
