@@ -24,8 +24,7 @@ bool wanted(const std::string& name, const std::vector<std::string>& only) {
 
 Status write_plots(const scenarios::Study& study, const fs::path& run, const std::vector<std::string>& only, std::string& written) {
   MORULA_TRY_ASSIGN(const scenarios::SeriesTable series, scenarios::read_series(run / "series.csv"));
-  MORULA_TRY_ASSIGN(std::vector<scenarios::NamedPlot> plots, scenarios::declared_plots(study, run));
-  for (scenarios::NamedPlot& plot : scenarios::standard_plots(study, series)) plots.push_back(std::move(plot));
+  MORULA_TRY_ASSIGN(const std::vector<scenarios::NamedPlot> plots, scenarios::plots_of(study, run, series));
   for (const scenarios::NamedPlot& one : plots) {
     if (!wanted(one.name, only)) continue;
     MORULA_TRY(scenarios::write_curves(one.plot, run / "plots" / one.name));

@@ -135,11 +135,12 @@ void declare_criterion(Section& s, Criterion& c) {
   declare_expected(
       s, "against", c.against,
       "What the measure must be near to, by `within`: a number, a theory, another measure, or data over time or over `along`.");
-  s.any_quantity({.name = "within",
-                  .doc = "How near to `against`: with the unit of the measure, in % of what is expected, or as near as another measure, "
-                         "`measure(thing)`, is.",
-                  .example = "4 deg"},
-                 c.within);
+  s.any_quantity(
+      {.name = "within",
+       .doc = "How near to `against`: with the unit of the measure, in % of what is expected, or with `curve: rms` as near to the data as "
+              "another measure, `measure(thing)`, is.",
+       .example = "4 deg"},
+      c.within);
   s.any_quantity(
       {.name = "below", .doc = "Largest value: with the unit of the measure, or another measure, `measure(thing)`.", .example = "0.3 um"},
       c.below);

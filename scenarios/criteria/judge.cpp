@@ -12,7 +12,8 @@
 namespace morula::scenarios {
 namespace {
 
-constexpr double kRest = 1e-9;  // range of the energy over its size, below which a tissue is at rest and what is left is rounding
+constexpr double kRest =
+    1e-7;  // range of the energy over its size, below which a tissue is at rest and what is left are the tolerances of the steps
 
 /// Largest value of a column; kNothing, which passes no limit, without a row or where a value is no number.
 double largest(const SeriesColumn* column) {
@@ -116,6 +117,16 @@ Result<Judgement> judge(const Study& study, const std::filesystem::path& run) {
 Result<std::vector<NamedPlot>> declared_plots(const Study& study, const std::filesystem::path& run) {
   FinishedRun finished(study, run);
   return study_plots(finished);
+}
+
+Result<std::vector<NamedPlot>> plots_of(const Study& study, const std::filesystem::path& run, const SeriesTable& series) {
+  MORULA_TRY_ASSIGN(std::vector<NamedPlot> out, declared_plots(study, run));
+  const std::size_t declared = out.size();
+  for (NamedPlot& plot : standard_plots(study, series))
+    if (std::none_of(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(declared),
+                     [&](const NamedPlot& own) { return own.name == plot.name; }))
+      out.push_back(std::move(plot));
+  return out;
 }
 
 }  // namespace morula::scenarios

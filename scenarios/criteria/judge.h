@@ -21,6 +21,9 @@ Result<Judgement> judge(const Study& study, const std::filesystem::path& run);
 /// The plots that the study declares.
 Result<std::vector<NamedPlot>> declared_plots(const Study& study, const std::filesystem::path& run);
 
+/// The plots that the study declares, then those of every run (standard_plots); where both have a name, the study's is the plot of that name.
+Result<std::vector<NamedPlot>> plots_of(const Study& study, const std::filesystem::path& run, const SeriesTable& series);
+
 /// Whether nothing drives the tissue: no growth, migration, death, exchange of bodies, renewal of meshes, inflation or moving obstacle. Its energy can only
 /// fall.
 bool is_passive(const Study& study);

@@ -73,6 +73,23 @@ std::optional<Question> twice_named(const Criterion& c, const Place& place, Diag
   return std::nullopt;
 }
 
+/// Whether nothing is asked that the question has no place for: what lies along where nothing is read there, several cells of what is none, and what is made of
+/// a course where a curve takes it whole. E414.
+bool has_a_place_for_all(const Criterion& c, const Question& q, Diagnostics& diagnostics) {
+  const auto wrong = [&](const Place& place, const std::string& what, const std::string& help) {
+    diagnostics.error(414, place, what, help);
+    return false;
+  };
+  if (q.along && q.curve.empty() && !c.against.data.given)
+    return wrong(c.along.place, "nothing is read along '" + c.along.value + "'", "`curve`, or `against: {data: ...}`; else leave it out");
+  if (q.over_cells != "each" && q.measured.measure.of == MeasureOf::kRun)
+    return wrong(c.moments.over_cells.place, "'" + c.measure.value + "' is of the run as a whole, not of cells", "leave `over_cells` out");
+  for (const auto* made : {&c.moments.over_cells, &c.moments.over_time})
+    if (made->value != "each" && !q.curve.empty())
+      return wrong(made->place, "`curve: " + q.curve + "` is of all cells and moments: nothing else is made of them", "keep one of them");
+  return true;
+}
+
 std::optional<Question> question_of(const Study& study, const Criterion& c, Diagnostics& diagnostics) {
   Question out;
   out.together = c.of.together.value;
@@ -94,7 +111,7 @@ std::optional<Question> question_of(const Study& study, const Criterion& c, Diag
     diagnostics.error(416, c.moments.at.place, "'" + c.measure.value + "' is of no load or obstacle that rests", "write `at: holds(load)`");
     return std::nullopt;
   }
-  if (!find_along(study, c, out, diagnostics)) return std::nullopt;
+  if (!find_along(study, c, out, diagnostics) || !has_a_place_for_all(c, out, diagnostics)) return std::nullopt;
   const Dimension own{out.measured.measure.quantity, false};
   auto over = expectation_of(study, c.over, {{&out.measured}, own, Quantity::kTime, true, "over"}, c.id.place, diagnostics);
   if (!over) return std::nullopt;
@@ -129,6 +146,11 @@ std::optional<UnderstoodCriterion> understand(const Study& study, const Criterio
   if (rms && (out.expected.kind != Expectation::Kind::kData || out.limit.relative)) {
     diagnostics.error(414, c.curve.place, "`curve: rms` is how near a curve is to data, in the unit of the measure",
                       "`against: {data: ...}`, and `within` with a unit");
+    return std::nullopt;
+  }
+  if (out.limit.kind == MeasureLimit::Kind::kWithin && out.limit.other && !rms) {
+    diagnostics.error(414, c.within.place, "`within` is another measure with `curve: rms` only: as near to the data as that one is",
+                      "`within` as a number in the unit of the measure, or relative in %");
     return std::nullopt;
   }
   if (out.limit.relative && out.expected.kind == Expectation::Kind::kValue && out.expected.value.internal == 0.0) {

@@ -22,6 +22,13 @@ bool is_output(const Study& study, double time) {
   return time == study.time.end || (time <= study.time.end && std::abs(outputs - std::round(outputs)) < 1e-6);
 }
 
+/// Whether the run writes anything from one time to another. [s]
+bool has_output(const Study& study, double from, double until) {
+  if (until >= study.time.end) return true;
+  constexpr double kRounding = 1e-6;  // of an interval
+  return std::ceil(from / study.time.output - kRounding) * study.time.output <= until + kRounding * study.time.output;
+}
+
 /// Whether a text is `holds` or `holds(name)`.
 bool asks_for_holds(const std::string& at) { return at == "holds" || (at.starts_with("holds(") && at.ends_with(')')); }
 
@@ -102,6 +109,11 @@ std::optional<AskedMoments> moments_of(const Study& study, const MeasuredMoments
     }
     const double end = m.until.given ? m.until.value : study.time.end;
     if (m.from.value <= end && end <= study.time.end) {
+      if (!has_output(study, m.from.value, end)) {
+        diagnostics.error(416, m.until.place, "the run writes nothing from " + m.from.text + " to " + m.until.text,
+                          "a multiple of `time.output` between them");
+        return std::nullopt;
+      }
       if (holds) return holds_named(study, m, diagnostics);
       return AskedMoments{{Moments::Kind::kBetween, m.from.value, m.until.given ? m.until.value : kNever}};  // a run may be prolonged
     }

@@ -40,6 +40,9 @@ Theory exponential_growth() {
                            "needs cells that do not take after their mothers: `correlation` makes families of fast cells", ""};
             if (dividing.cycle.phases.empty() && dividing.cycle.control != SizeControl::kTimer)
               return Error{ErrorKind::kInput, "needs a cycle of times: where size is controlled, the sizes at the start decide", ""};
+            if (measure == "total_volume" && (!dividing.cycle.growth->grows || dividing.cycle.ratio != 2.0))
+              return Error{ErrorKind::kInput, "knows the volume of cells that double it from division to division only",
+                           "`ratio: 2`, and a law of growth"};
             return Status{};
           },
           [](FinishedRun& run, const Subject&, const std::string& measure, const Sample& sample) -> Result<double> {

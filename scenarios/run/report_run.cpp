@@ -258,8 +258,7 @@ Result<fs::path> write_run_report(const Study& study, const RunRecord& record, c
   content.state = state_text(record);
   for (const Verdict& v : judgement.verdicts) content.criteria.push_back({v.id, v.quantity, with_unit_of_limit(v), v.limit, v.passed});
   content.not_checked = judgement.not_checked;
-  MORULA_TRY_ASSIGN(std::vector<NamedPlot> plots, declared_plots(study, run));
-  for (NamedPlot& plot : standard_plots(study, series)) plots.push_back(std::move(plot));
+  MORULA_TRY_ASSIGN(const std::vector<NamedPlot> plots, plots_of(study, run, series));
   for (const NamedPlot& one : plots) {
     MORULA_TRY(write_curves(one.plot, run / "plots" / one.name));
     content.plots.push_back({caption_of(one, series), curves_svg(one.plot, SvgUse::kInline), one.numerics});  // the plot has its title

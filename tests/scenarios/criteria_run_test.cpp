@@ -43,6 +43,7 @@ plots:
   - {name: pressures, y: pressure_inside, of: [cell, ball], at: end, x: radius, against: laplace}
   - {name: counted, y: cell_count, against: {data: count.csv, y: cells, source: a count}}
   - {name: each, y: volume(cell), over_cells: each}
+  - {name: energy, y: volume(ball), over_cells: mean}
 )";
 
 class OwnCriteria : public testing::Test {
@@ -176,8 +177,10 @@ TEST(ColumnNames, ThatTwoThingsHaveAreToldByCheck) {
 TEST_F(OwnCriteria, FindNothingInWhatIsInfiniteOrMissing) {
   ASSERT_TRUE(runs(R"(  - {id: INFINITE, measure: cell_count, over: {measure: divisions}, above: 2}
   - {id: TOGETHER, measure: volume, of: {type: [cell, none], together: true}, above: 1 um^3}
+  - {id: CAP, measure: cap.angle, of: {pair: [cell, cell]}, below: 90 deg}
+  - {id: CAP_ON, measure: cap.contact_radius, of: {type: cell, obstacle: lid}, below: 1}
   - {id: ONE, measure: volume, of: {type: [cell, ball], together: true}, above: 1 um^3})"));
-  for (const char* id : {"INFINITE", "TOGETHER"}) {
+  for (const char* id : {"INFINITE", "TOGETHER", "CAP", "CAP_ON"}) {  // caps are of cells that touch
     EXPECT_FALSE(verdict(id).passed) << id;
     EXPECT_TRUE(std::isnan(verdict(id).value)) << id;
   }
@@ -218,7 +221,7 @@ TEST_F(OwnCriteria, PlotsStandInTheReportAndBesideIt) {
   EXPECT_TRUE(passed_);
   const auto plots = declared_plots(study_, folder_.path() / "run");
   ASSERT_TRUE(plots.ok()) << plots.error().message;
-  ASSERT_EQ(plots->size(), 5u);
+  ASSERT_EQ(plots->size(), 6u);
   EXPECT_EQ((*plots)[0].plot.curves.size(), 2u);
   EXPECT_EQ((*plots)[0].plot.curves[0].x.size(), 5u);
   EXPECT_EQ((*plots)[0].plot.limits.size(), 1u);
@@ -241,6 +244,30 @@ TEST_F(OwnCriteria, PlotsStandInTheReportAndBesideIt) {
   for (const char* words : {"Under the lid", "Laplace", "a count", "criteria passed"}) EXPECT_THAT(report, HasSubstr(words));
   for (const char* name : {"volumes.svg", "volumes.csv", "lid.svg", "pressures.svg", "counted.svg"})
     EXPECT_TRUE(std::filesystem::exists(folder_.path() / "run/plots" / name)) << name;
+  EXPECT_THAT(testing_support::slurp(folder_.path() / "run/plots/energy.csv"), HasSubstr("um^3"))
+      << "the study's plot, not the one of every run";
+}
+
+/// A lone cell comes to rest at once: what its energy then does are the tolerances of the steps.
+TEST(CommonCriteria, DoNotJudgeTheEnergyOfACellAtRestByItsRounding) {
+  const test::Folder folder;
+  const auto study = test::read(R"(schema: 1
+study: rest
+time: {end: 10 min, output: 1 min}
+domain: {size: [200 um, 200 um, 200 um]}
+cell_types:
+  cell: {radius: 3 um, body: shell, adhesion: {cell: 0 J/m^2}, cycle: {model: none}, dcm: {nodes: 162, cortex: {elastic: none, tension: 2 mN/m}}}
+initial: [{type: cell, at: [0 um, 0 um, 0 um]}]
+output: {report: false}
+)");
+  ASSERT_TRUE(study.ok()) << study.error().text();
+  RunRequest request;
+  request.out = folder.path() / "run";
+  const auto done = run(*study, request, Comm());
+  ASSERT_TRUE(done.ok()) << done.error().message;
+  const auto energy = std::ranges::find(done->verdicts, std::string("INV.7"), &Verdict::id);
+  ASSERT_NE(energy, done->verdicts.end());
+  EXPECT_TRUE(energy->passed) << energy->value;
 }
 
 /// A patch of marked faces has no force while no face has the mark.

@@ -160,6 +160,8 @@ TEST(Criteria, HaveOneLimitInTheUnitOfTheMeasure) {
   EXPECT_THAT(message_of("measure: volume(left), against: 3 um^3, within: -5 %"), AllOf(HasSubstr("'within' is -5 %"), HasSubstr("E414")));
   EXPECT_THAT(message_of("measure: volume(left), over: 5, above: 1"), HasSubstr("'over' is a volume"));
   EXPECT_THAT(message_of("measure: volume.change(left), against: 0, within: 2 %"), AllOf(HasSubstr("could not hold"), HasSubstr("E414")));
+  EXPECT_THAT(message_of("measure: volume(left), against: 3 um^3, within: volume(right)"),
+              AllOf(HasSubstr("with `curve: rms` only"), HasSubstr("E414")));
   EXPECT_THAT(message_of("above: 3 um^3"), AllOf(HasSubstr("measure"), HasSubstr("E103")));
 }
 
@@ -169,6 +171,23 @@ TEST(Criteria, AreHeldAgainstTheoriesThatFit) {
   EXPECT_THAT(message_of("measure: cap.contact_radius, of: {pair: [left, right]}, against: elastic_cap, within: 3 %"),
               AllOf(HasSubstr("'elastic_cap' knows cells of 642 nodes"), HasSubstr("E413")));
   EXPECT_THAT(message_of("measure: cell_count, against: exponential_growth, within: 3 %"), HasSubstr("with a cycle"));
+}
+
+/// Cells whose volume does not double from division to division: their number still grows as the theory has it.
+TEST(Criteria, OfVolumesThatGrowExponentiallyNeedCellsThatDoubleTheirs) {
+  const auto errors_with = [](const char* cycle, const char* measure) {
+    const auto study = read(std::string("schema: 1\nstudy: growing\ntime: {end: 1 h}\ndomain: {size: [100 um, 100 um, 100 um]}\n"
+                                        "cell_types: {a: {radius: 5 um, cycle: {duration: 18 h") +
+                                cycle + "}}}\ninitial: [{type: a, at: [[0 um, 0 um, 0 um]]}]\ncriteria: [{id: A, measure: " + measure +
+                                ", against: exponential_growth, within: 3 %}]\n",
+                            with_criteria());
+    return study.ok() ? std::string() : study.error().text();
+  };
+  EXPECT_EQ(errors_with("", "total_volume"), "");
+  for (const char* cycle : {", model: phases, growth: none", ", ratio: 3"}) {
+    EXPECT_EQ(errors_with(cycle, "cell_count"), "") << cycle;
+    EXPECT_THAT(errors_with(cycle, "total_volume"), AllOf(HasSubstr("cells that double it"), HasSubstr("E413"))) << cycle;
+  }
 }
 
 TEST(Criteria, AreDividedByWhatHasTheirDimension) {
@@ -185,6 +204,12 @@ TEST(Criteria, AreCurvesOverWhatIsNamed) {
   EXPECT_THAT(message_of("measure: force(pull), along: wya, curve: r_squared, above: 0.9"), HasSubstr("`way`"));
   EXPECT_THAT(message_of("measure: volume(left), along: way, curve: r_squared, above: 0.9"), HasSubstr("E412"));
   EXPECT_THAT(message_of("measure: force(pull), along: way, curve: rms, below: 1 nN"), HasSubstr("how near a curve is to data"));
+  EXPECT_THAT(message_of("measure: volume(left), along: radius, above: 9 um^3"),
+              AllOf(HasSubstr("nothing is read along 'radius'"), HasSubstr("E414")));
+  EXPECT_THAT(message_of("measure: force(pull), along: way, curve: r_squared, over_time: mean, above: 0.9"),
+              AllOf(HasSubstr("is of all cells and moments"), HasSubstr("E414")));
+  EXPECT_THAT(message_of("measure: mean_pressure, over_cells: max, below: 9 Pa"),
+              AllOf(HasSubstr("of the run as a whole"), HasSubstr("E414")));
 }
 
 TEST(Criteria, AskForOutputsThatTheRunHas) {
@@ -196,6 +221,8 @@ TEST(Criteria, AskForOutputsThatTheRunHas) {
   EXPECT_THAT(message_of("measure: cell_count, at: 10 um, above: 3"), HasSubstr("E203"));
   EXPECT_THAT(message_of("measure: cell_count, at: end, from: 10 min, above: 3"), HasSubstr("E416"));
   EXPECT_THAT(message_of("measure: cell_count, from: 30 min, until: 10 min, above: 3"), HasSubstr("E416"));
+  EXPECT_THAT(message_of("measure: cell_count, from: 11 min, until: 14 min, above: 3"),
+              AllOf(HasSubstr("writes nothing from 11 min to 14 min"), HasSubstr("E416")));
 }
 
 TEST(Criteria, OfACourseAskForSeveralMoments) {
