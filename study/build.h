@@ -88,6 +88,8 @@ void check_whole(BuildContext& context);
 void check_resolution(BuildContext& context);
 /// What bodies do not do: shells that wait, adhesion of spheres beyond JKR: E646, E647.
 void check_bodies(BuildContext& context);
+/// Rules that no cell ever meets, or that are never asked: W694.
+void check_rules(BuildContext& context);
 /// Keys that nothing reads in this study: W515.
 void check_unused(BuildContext& context);
 

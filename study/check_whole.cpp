@@ -345,7 +345,9 @@ void check_whole(BuildContext& c) {
   check_nuclei(c);
   check_resolution(c);
   check_bodies(c);
-  if (!c.diagnostics.has_errors()) check_unused(c);
+  if (c.diagnostics.has_errors()) return;
+  check_rules(c);
+  check_unused(c);
 }
 
 }  // namespace morula::scenarios

@@ -272,7 +272,10 @@ constexpr ErrorCode kCodes[] = {
      "own error and range "
      "may not hold. A file without a `checksum` is taken as it is."},
     {694, "rule that nobody meets",
-     "A trigger compares with what no cell can have (a share of a surface above 2, an age below 0), or with what all have; a region, "
+     "A trigger compares with what no cell can have (a share of a surface above 2, an age below 0), or with what all have, also a "
+     "concentration that the field never has by "
+     "what it begins with, its faces and what takes or makes it; a region or trigger comes behind a region that holds every cell; a "
+     "region, "
      "cavity or "
      "course begins when the run has ended; a region names more cells than `max_shells` lets be shells."},
     {695, "tension in contact of a fluid cortex",
