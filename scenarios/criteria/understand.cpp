@@ -111,6 +111,12 @@ std::optional<Question> question_of(const Study& study, const Criterion& c, Diag
     diagnostics.error(416, c.moments.at.place, "'" + c.measure.value + "' is of no load or obstacle that rests", "write `at: holds(load)`");
     return std::nullopt;
   }
+  if (out.measured.measure.of_a_course && out.moments.moments.is_one()) {
+    diagnostics.error(416, c.moments.at.given ? c.moments.at.place : c.measure.place,
+                      "'" + c.measure.value + "' is found from the first to the last of several moments, and this is one",
+                      "`at: every`, or `from` and `until`");
+    return std::nullopt;
+  }
   if (!find_along(study, c, out, diagnostics) || !has_a_place_for_all(c, out, diagnostics)) return std::nullopt;
   const Dimension own{out.measured.measure.quantity, false};
   auto over = expectation_of(study, c.over, {{&out.measured}, own, Quantity::kTime, true, "over"}, c.id.place, diagnostics);

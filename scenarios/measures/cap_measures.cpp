@@ -17,6 +17,10 @@ double wetting_of(const Study& study, const Subject& subject, double time) {
   return study.model.pair(type, partner).adhesion / tension_at(study.model.types[type], time);
 }
 
+double range_of_contact(const Study& study, const Subject& subject) {
+  return range_of(study.model, static_cast<std::size_t>(subject.type), static_cast<std::size_t>(subject.partner));
+}
+
 /// How far the nearest node of a shell is beyond a plane, along its normal [µm].
 double lowest(const ShellView& shell, const Vec3d& point, const Vec3d& normal) {
   double out = std::numeric_limits<double>::infinity();
@@ -29,7 +33,7 @@ std::vector<MeasuredCap> caps_of_pair(const Study& study, const Snapshot& snapsh
   if (!pair) return {};
   const Snapshot::Cell &a = *pair->first.cell, &b = *pair->second.cell;
   const Vec3d middle = (a.centroid + b.centroid) * 0.5, axis = normalized(b.centroid - a.centroid);
-  if (lowest(pair->first, middle, axis * -1.0) + lowest(pair->second, middle, axis) > study.model.contact.range) return {};
+  if (lowest(pair->first, middle, axis * -1.0) + lowest(pair->second, middle, axis) > range_of_contact(study, subject)) return {};
   const auto low = fit_cap(pair->first, middle, axis * -1.0), high = fit_cap(pair->second, middle, axis);
   if (!low || !high) return {};
   const double tension = tension_at(study.model.types[static_cast<std::size_t>(subject.type)], snapshot.time);
@@ -55,7 +59,7 @@ std::vector<MeasuredCap> caps_on_obstacle(const Study& study, const Snapshot& sn
   const double tension = tension_at(type, snapshot.time);
   std::vector<MeasuredCap> out;
   for (const ShellView& shell : shells_of(snapshot, static_cast<std::size_t>(subject.type))) {
-    if (lowest(shell, {0, 0, top}, {0, 0, 1}) > model.contact.range) continue;
+    if (lowest(shell, {0, 0, top}, {0, 0, 1}) > range_of_contact(study, subject)) continue;
     const auto cap = fit_cap(shell, {0, 0, top}, {0, 0, 1});
     if (!cap) continue;
     MeasuredCap one;

@@ -73,6 +73,7 @@ Result<double> youngs_law_value(FinishedRun& run, const Subject& s, const std::s
 /// W/γ of a cell on a plane, of which a doublet is the mirror image with twice the adhesion; Y/γ.
 const ElasticCap* reference_of(const Study& study, const Subject& s, double time) {
   const CellType& type = type_of(study, s);
+  if (type.shell.turnover_rate > 0.0 || type.shell.helfrich_rigidity > 0.0) return nullptr;
   const double tension = tension_at(type, time), half = on_obstacle(study, s) ? 1.0 : 0.5;
   return elastic_cap(half * (adhesion_of(study, s) / tension), spring_modulus(type) / tension, type.shell_nodes);
 }
@@ -102,11 +103,12 @@ Theory elastic_cap_theory() {
           "scenarios/library/spreading/spreading_static_reference.csv",
           {"cap.contact_radius", "cap.height", "cap.length"},
           [](const Study& study, const Subject& s, const std::string&) {
-            return reference_of(study, s, study.time.end) != nullptr ? Status{}
-                                                                     : wrong(
-                                                                           "knows cells of 642 nodes and more with 2 E h/(3 (1 - nu^2)) of "
-                                                                           "twice the tension, and W/T = 0.5 or 1 on a plane or "
-                                                                           "twice that between two cells");
+            return reference_of(study, s, study.time.end) != nullptr
+                       ? Status{}
+                       : wrong(
+                             "knows cells of 642 nodes and more whose E h is twice the "
+                             "tension, without turnover or a bending rigidity of their own, and W/T = 0.5 or 1 on a plane or "
+                             "twice that between two cells");
           },
           [](FinishedRun& run, const Subject& s, const std::string& measure, const Sample& sample) -> Result<double> {
             const ElasticCap* cap = reference_of(run.study(), s, sample.time);

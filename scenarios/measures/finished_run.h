@@ -21,6 +21,8 @@ struct Moments {
   double from = 0.0, until = 0.0;  ///< of kBetween and kHolds; the same for a single moment [s]
   TimeCourse course{};             ///< of kHolds: the last outputs of the times in which it rests
 
+  /// Whether it is a single output, whatever the run.
+  [[nodiscard]] bool is_one() const { return kind == Kind::kStart || kind == Kind::kEnd || (kind == Kind::kBetween && from == until); }
   /// The numbers of those among increasing times [s].
   [[nodiscard]] std::vector<std::size_t> among(const std::vector<double>& times) const;
 };

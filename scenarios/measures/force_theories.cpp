@@ -58,7 +58,8 @@ Theory filled_box() {
   return {"filled_box",
           "cells that fill their box",
           "Pressure of cells that fill a periodic box and whose cortex presses as that of a free ball: V0 is the volume of the free cells "
-          "together, by the radius of their types, V that of the box, K the bulk modulus.",
+          "together, by the radius of their types, V that of the box, K the bulk modulus of the type (`dcm.bulk_modulus`), which its "
+          "spheres have, too, unless `cbm.packing` gives them another one.",
           "p = K ln(V0/V)",
           "physics/fields_and_coupling.md D (a)",
           {"pressure", "mean_pressure"},

@@ -20,6 +20,17 @@ int dividing_type(const Model& model, const std::string& measure) {
   return found;
 }
 
+/// What keeps cells of a type from dividing once in every mean duration, as far as the study says it; null: nothing. (That neighbours press is told by the run.)
+const char* what_keeps_from_dividing(const CellType& type, std::uint16_t own) {
+  if (std::ranges::any_of(type.behaviours, [](const CellBehaviour& one) { return one.what == starvation() && one.may_act(); }))
+    return "cells that do not die: leave `death` away";
+  if (!type.cycle.arrest.empty() || std::ranges::any_of(type.cycle.phases, [](const CyclePhase& phase) { return !phase.arrest.empty(); }))
+    return "cells that nothing holds back: leave `arrest` away";
+  if (std::ranges::any_of(type.fates.all, [own](const Fate& fate) { return fate.share > 0.0 && fate.type != std::array{own, own}; }))
+    return "cells whose daughters divide as they do: leave `fates` away";
+  return nullptr;
+}
+
 }  // namespace
 
 Theory exponential_growth() {
@@ -40,6 +51,8 @@ Theory exponential_growth() {
                            "needs cells that do not take after their mothers: `correlation` makes families of fast cells", ""};
             if (dividing.cycle.phases.empty() && dividing.cycle.control != SizeControl::kTimer)
               return Error{ErrorKind::kInput, "needs a cycle of times: where size is controlled, the sizes at the start decide", ""};
+            if (const char* const needs = what_keeps_from_dividing(dividing, static_cast<std::uint16_t>(type)))
+              return Error{ErrorKind::kInput, std::string("needs ") + needs, ""};
             if (measure == "total_volume" && (!dividing.cycle.growth->grows || dividing.cycle.ratio != 2.0))
               return Error{ErrorKind::kInput, "knows the volume of cells that double it from division to division only",
                            "`ratio: 2`, and a law of growth"};

@@ -46,6 +46,7 @@ struct Measure {
   std::string formula, source;
   Quantity quantity = Quantity::kNumber;
   MeasureOf of = MeasureOf::kRun;
+  bool of_a_course = false;  ///< one value of several moments, from the first to the last of them
   /// What else the things must have, as the message of an error: "needs a grip"; null: nothing.
   std::function<Status(const Study&, const Subject&)> fits{};
   /// Columns of series.csv that it reads; null: none. A run writes them whatever `output.series` says.

@@ -5,6 +5,7 @@
 #include "scenarios/measures/bearing_area.h"
 #include "scenarios/measures/elastic_cap.h"
 #include "scenarios/measures/measures.h"
+#include "scenarios/measures/verdicts.h"
 #include "scenarios/measures/ways_of_cells.h"
 
 namespace morula::scenarios {
@@ -125,6 +126,7 @@ Measure slide_measure() {
               "physics/dcm.md §9",
               Quantity::kNumber,
               MeasureOf::kLoad};
+  out.of_a_course = true;
   out.fits = [](const Study& study, const Subject& subject) -> Status {
     if (load_of(study, subject).what == body_force_load()) return {};
     return Error{ErrorKind::kInput, "needs a body force", ""};
@@ -137,13 +139,13 @@ Measure slide_measure() {
     if (asked.size() < 2) return found;
     MORULA_TRY_ASSIGN(const auto first, run.snapshot(asked.front()));
     MORULA_TRY_ASSIGN(const auto last, run.snapshot(asked.back()));
-    const auto before = shells_of(*first, load.type), after = shells_of(*last, load.type);
-    if (before.empty() || after.empty()) return found;
-    double way = 0.0;
+    const auto pushed = std::ranges::find(last->cells, load.type, &Snapshot::Cell::type);
+    if (pushed == last->cells.end()) return found;
+    double way = kNothing;  // of a cell that was there at the first
     MORULA_TRY(for_ways_since(run, asked.front(), {asked.back()}, [&](const Snapshot&, const Snapshot::Cell& cell, const Vec3d& of_cell) {
-      if (cell.id == after[0].cell->id) way = dot(of_cell, normalized(load.force));
+      if (cell.id == pushed->id) way = dot(of_cell, normalized(load.force));
     }));
-    const double drag = run.study().model.types[load.type].medium_friction * after[0].cell->area;
+    const double drag = run.study().model.types[load.type].medium_friction * pushed->area;
     found.push_back({last->time, way / (last->time - first->time) * drag / norm(load.force), ""});
     return found;
   };

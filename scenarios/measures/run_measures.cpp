@@ -6,6 +6,7 @@
 #include "results/exchanges.h"
 #include "results/file_io.h"
 #include "scenarios/measures/measures.h"
+#include "scenarios/measures/verdicts.h"
 
 namespace morula::scenarios {
 namespace {
@@ -45,8 +46,9 @@ Measure mean_contact_part_measure() {
 }
 
 Measure mean_step_measure() {
-  return of_columns("mean_step", "mean step", "Simulated time over the number of steps since time 0.", "t/N", Quantity::kTime,
-                    {"step_count"}, [](double time, const std::vector<double>& row) { return time / std::max(1.0, row[0]); });
+  return of_columns("mean_step", "mean step", "Simulated time over the number of steps since time 0; nothing before the first.", "t/N",
+                    Quantity::kTime, {"step_count"},
+                    [](double time, const std::vector<double>& row) { return row[0] > 0.0 ? time / row[0] : kNothing; });
 }
 
 Measure shortest_hold_measure() {

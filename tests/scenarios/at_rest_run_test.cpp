@@ -148,6 +148,7 @@ loads:
 criteria:
   - {id: D, measure: displacement, of: {type: [a, b]}, at: end, between: [0 um, 1 mm]}
   - {id: S, measure: slide.speed, of: {load: fb}, from: 0 s, until: 200 s, between: [0, 10]}
+  - {id: F, measure: slide.speed, of: {load: fa}, from: 0 s, until: 200 s, against: 1, within: 1e-3}
   - {id: P, measure: pair.distance, of: {pair: [c, c]}, at: start, between: [0 um, 1 mm]}
 output: {report: false}
 )";
@@ -160,7 +161,10 @@ output: {report: false}
       EXPECT_NEAR(small[i].value, large[i].value, 1e-4 * large[i].value) << small[i].quantity;
       ++judged;
     }
-  EXPECT_EQ(judged, 4);
+  EXPECT_EQ(judged, 5);
+  const auto sphere = std::ranges::find(small, std::string("F"), &Verdict::id);
+  ASSERT_NE(sphere, small.end());
+  EXPECT_TRUE(sphere->passed) << "a sphere that nothing but the medium holds";
 }
 
 TEST_F(AtRest, ObstaclesAreSeenAcrossPeriodicFaces) {

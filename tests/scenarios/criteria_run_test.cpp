@@ -177,10 +177,11 @@ TEST(ColumnNames, ThatTwoThingsHaveAreToldByCheck) {
 TEST_F(OwnCriteria, FindNothingInWhatIsInfiniteOrMissing) {
   ASSERT_TRUE(runs(R"(  - {id: INFINITE, measure: cell_count, over: {measure: divisions}, above: 2}
   - {id: TOGETHER, measure: volume, of: {type: [cell, none], together: true}, above: 1 um^3}
+  - {id: NO_STEP, measure: mean_step, at: start, below: 1 h}
   - {id: CAP, measure: cap.angle, of: {pair: [cell, cell]}, below: 90 deg}
   - {id: CAP_ON, measure: cap.contact_radius, of: {type: cell, obstacle: lid}, below: 1}
   - {id: ONE, measure: volume, of: {type: [cell, ball], together: true}, above: 1 um^3})"));
-  for (const char* id : {"INFINITE", "TOGETHER", "CAP", "CAP_ON"}) {  // caps are of cells that touch
+  for (const char* id : {"INFINITE", "TOGETHER", "NO_STEP", "CAP", "CAP_ON"}) {  // caps are of cells that touch
     EXPECT_FALSE(verdict(id).passed) << id;
     EXPECT_TRUE(std::isnan(verdict(id).value)) << id;
   }

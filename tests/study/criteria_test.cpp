@@ -169,8 +169,26 @@ TEST(Criteria, AreHeldAgainstTheoriesThatFit) {
   EXPECT_THAT(message_of("measure: volume(left), against: youngs_law, within: 3 %"),
               AllOf(HasSubstr("'youngs_law' says nothing about 'volume'"), HasSubstr("it predicts cap.angle"), HasSubstr("E413")));
   EXPECT_THAT(message_of("measure: cap.contact_radius, of: {pair: [left, right]}, against: elastic_cap, within: 3 %"),
-              AllOf(HasSubstr("'elastic_cap' knows cells of 642 nodes"), HasSubstr("E413")));
+              AllOf(HasSubstr("'elastic_cap' knows cells of 642 nodes and more whose E h is twice the tension"), HasSubstr("E413")));
   EXPECT_THAT(message_of("measure: cell_count, against: exponential_growth, within: 3 %"), HasSubstr("with a cycle"));
+}
+
+TEST(Criteria, OfPopulationsThatGrowExponentiallyNeedCellsThatAllDivide) {
+  const auto errors_with = [](const char* keys) {
+    const auto study = read(std::string("schema: 1\nstudy: growing\ntime: {end: 1 h}\ndomain: {size: [100 um, 100 um, 100 um]}\n"
+                                        "fields: {oxygen: {diffusion: 2e-9 m^2/s, initial: 0.2 mM, uptake: {a: {rate: 1 amol/s}}}}\n"
+                                        "cell_types: {a: {radius: 5 um, cycle: {duration: 18 h") +
+                                keys + "}, b: {radius: 5 um, cycle: {model: none}}}\ninitial: [{type: a, at: [[0 um, 0 um, 0 um]]}]\n" +
+                                "criteria: [{id: A, measure: cell_count, against: exponential_growth, within: 3 %}]\n",
+                            with_criteria());
+    return study.ok() ? std::string() : study.error().text();
+  };
+  EXPECT_EQ(errors_with("}"), "");
+  EXPECT_THAT(errors_with("}, death: {field: oxygen, below: 0.05 mM, rate: 0.1 1/h}"),
+              AllOf(HasSubstr("needs cells that do not die"), HasSubstr("E413")));
+  EXPECT_THAT(errors_with(", arrest: {pressure: {from: 100 Pa, to: 200 Pa}}}"),
+              AllOf(HasSubstr("leave `arrest` away"), HasSubstr("E413")));
+  EXPECT_THAT(errors_with(", daughters: {fates: [{types: [a, b], share: 50 %}]}}"), AllOf(HasSubstr("leave `fates` away"), HasSubstr("E413")));
 }
 
 /// Cells whose volume does not double from division to division: their number still grows as the theory has it.
@@ -221,6 +239,8 @@ TEST(Criteria, AskForOutputsThatTheRunHas) {
   EXPECT_THAT(message_of("measure: cell_count, at: 10 um, above: 3"), HasSubstr("E203"));
   EXPECT_THAT(message_of("measure: cell_count, at: end, from: 10 min, above: 3"), HasSubstr("E416"));
   EXPECT_THAT(message_of("measure: cell_count, from: 30 min, until: 10 min, above: 3"), HasSubstr("E416"));
+  EXPECT_THAT(message_of("measure: slide.speed(push), above: 1"),
+              AllOf(HasSubstr("from the first to the last of several moments"), HasSubstr("E416")));
   EXPECT_THAT(message_of("measure: cell_count, from: 11 min, until: 14 min, above: 3"),
               AllOf(HasSubstr("writes nothing from 11 min to 14 min"), HasSubstr("E416")));
 }
