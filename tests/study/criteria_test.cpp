@@ -179,16 +179,16 @@ TEST(Criteria, OfPopulationsThatGrowExponentiallyNeedCellsThatAllDivide) {
                                         "fields: {oxygen: {diffusion: 2e-9 m^2/s, initial: 0.2 mM, uptake: {a: {rate: 1 amol/s}}}}\n"
                                         "cell_types: {a: {radius: 5 um, cycle: {duration: 18 h") +
                                 keys + "}, b: {radius: 5 um, cycle: {model: none}}}\ninitial: [{type: a, at: [[0 um, 0 um, 0 um]]}]\n" +
-                                "criteria: [{id: A, measure: cell_count, against: exponential_growth, within: 3 %}]\n",
+                                "criteria: [{id: A, measure: count_a, against: exponential_growth, within: 3 %}]\n",
                             with_criteria());
     return study.ok() ? std::string() : study.error().text();
   };
   EXPECT_EQ(errors_with("}"), "");
   EXPECT_THAT(errors_with("}, death: {field: oxygen, below: 0.05 mM, rate: 0.1 1/h}"),
               AllOf(HasSubstr("needs cells that do not die"), HasSubstr("E413")));
-  EXPECT_THAT(errors_with(", arrest: {pressure: {from: 100 Pa, to: 200 Pa}}}"),
-              AllOf(HasSubstr("leave `arrest` away"), HasSubstr("E413")));
-  EXPECT_THAT(errors_with(", daughters: {fates: [{types: [a, b], share: 50 %}]}}"), AllOf(HasSubstr("leave `fates` away"), HasSubstr("E413")));
+  EXPECT_THAT(errors_with(", arrest: {pressure: {from: 100 Pa, to: 200 Pa}}}"), AllOf(HasSubstr("leave `arrest` away"), HasSubstr("E413")));
+  EXPECT_THAT(errors_with(", daughters: {fates: [{types: [a, b], share: 50 %}]}}"),
+              AllOf(HasSubstr("leave `fates` away"), HasSubstr("E413")));
 }
 
 /// Cells whose volume does not double from division to division: their number still grows as the theory has it.
