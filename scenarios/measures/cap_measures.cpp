@@ -81,6 +81,7 @@ std::vector<MeasuredCap> caps_on_obstacle(const Study& study, const Snapshot& sn
 Measure cap_measure(const char* name, const char* title, const char* doc, const char* formula, Quantity quantity,
                     double MeasuredCap::*value) {
   Measure out{name, title, doc, formula, "physics/dcm.md §8", quantity, MeasureOf::kContact};
+  out.fits = &needs_shells;
   out.take = [value](FinishedRun& run, const Subject& subject, const Moments& moments) -> Result<std::vector<Sample>> {
     MORULA_TRY_ASSIGN(const std::vector<double>* const times, run.snapshot_times());
     std::vector<Sample> found;

@@ -139,11 +139,13 @@ Measure elongation_measure() {
                       &elongation, "sqrt(largest/smallest eigenvalue of the area-weighted second moments)");
 }
 Measure least_angle_measure() {
-  return cell_measure("least_angle", "least angle of a face",
-                      "Least angle of a triangle of a shell's mesh: 60 deg at best, and near zero where triangles are needles.",
-                      Quantity::kAngle, [](const Snapshot&, const Cell&, const ShellView* shell) {
-                        return shell != nullptr ? least_angle(shell->faces, shell->nodes) : kNone;
-                      });
+  Measure out = cell_measure("least_angle", "least angle of a face",
+                             "Least angle of a triangle of a shell's mesh: 60 deg at best, and near zero where triangles are needles.",
+                             Quantity::kAngle, [](const Snapshot&, const Cell&, const ShellView* shell) {
+                               return shell != nullptr ? least_angle(shell->faces, shell->nodes) : kNone;
+                             });
+  out.fits = &needs_shells;
+  return out;
 }
 Measure width_measure(int axis) {
   static constexpr OfCell kWidths[] = {&width<0>, &width<1>, &width<2>};

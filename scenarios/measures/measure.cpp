@@ -33,6 +33,19 @@ bool is_meant(const Snapshot::Cell& cell, const Subject& subject) {
   return subject.type < 0 || cell.type == subject.type;
 }
 
+Status needs_shells(const Study& study, const Subject& subject) {
+  const Model& model = study.model;
+  bool may_be = model.swaps.any();
+  for (std::size_t type = 0; type < model.types.size(); ++type) {
+    may_be = may_be || !model.types[type].fates.all.empty();  // a sister has the body of her mother for a while
+    if (subject.type >= 0 && type != static_cast<std::size_t>(subject.type)) continue;
+    for (const InitialCells& cells : study.initial)
+      may_be = may_be || cells.source == InitialCells::Source::kMeshes ||
+               cells.may_begin_as(type, BodyKind::kShell, model.types[type].initial_body);
+  }
+  return may_be ? Status{} : Error{ErrorKind::kInput, "needs shells, and these cells are always spheres", "`body: shell`"};
+}
+
 Measure cell_measure(std::string name, std::string title, std::string doc, Quantity quantity, OfCell value, std::string formula) {
   Measure out{std::move(name), std::move(title), std::move(doc), std::move(formula), "", quantity, MeasureOf::kCells};
   out.take = [value](FinishedRun& run, const Subject& subject, const Moments& moments) {

@@ -58,6 +58,9 @@ struct Measure {
 /// Whether a cell is one of those that a subject of kCells or kField means.
 bool is_meant(const Snapshot::Cell& cell, const Subject& subject);
 
+/// Whether some cell that is meant may ever be a shell; of a contact those of its first type. What it says is the message of an error.
+Status needs_shells(const Study& study, const Subject& subject);
+
 /// A measure of each cell by itself, of what a snapshot holds. `shell` is null for cells that are spheres; a value that is no number:
 /// nothing there.
 using OfCell = double (*)(const Snapshot&, const Snapshot::Cell&, const ShellView* shell);
