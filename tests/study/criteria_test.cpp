@@ -138,12 +138,12 @@ TEST(Criteria, AreTakenOfWhatTheMeasureIsTakenOf) {
   EXPECT_THAT(message_of("measure: volume(left), of: {type: left}, above: 3 um^3"),
               AllOf(HasSubstr("says it once more"), HasSubstr("E412")));
   EXPECT_THAT(message_of("measure: cap.angle, of: {pair: [left]}, above: 3 deg"), HasSubstr("needs 2"));
-  const auto spheres =
-      read(changed(", as: shell, orientation: aligned}\nloads", "}\nloads", criterion("measure: least_angle(right), above: 15 deg")),
-           with_criteria());
+  const auto spheres = read(changed(", as: shell, orientation: aligned}\n  - {type: right", "}\n  - {type: right",
+                                    criterion("measure: least_angle(left), above: 15 deg")),
+                            with_criteria());
   ASSERT_FALSE(spheres.ok());
   EXPECT_THAT(spheres.error().text(),
-              AllOf(HasSubstr("'least_angle' needs shells, and these cells are always spheres"), HasSubstr("E412")));
+              AllOf(HasSubstr("'least_angle' of left needs shells, and these cells are always spheres"), HasSubstr("E412")));
   EXPECT_THAT(message_of("measure: way(push), above: 3 um"), HasSubstr("needs a grip with a `way`"));
   EXPECT_THAT(message_of("measure: volume, of: {tipe: left}, above: 3 um^3"), AllOf(HasSubstr("unknown key 'tipe'"), HasSubstr("E101")));
 }
