@@ -79,6 +79,10 @@ bool find_theory_of(const Study& study, const Given<std::string>& name, const st
                           fits.error().help);
         return false;
       }
+    for (const Subject& subject : call->subjects)
+      if (const std::string doubt = out.theory->doubt ? out.theory->doubt(study, subject) : std::string(); !doubt.empty())
+        diagnostics.warning(413, name.place,
+                            "'" + name.value + "' " + doubt + (subject.text.empty() ? "" : " (here: " + subject.text + ")"), "");
   }
   return true;
 }

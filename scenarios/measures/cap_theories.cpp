@@ -36,6 +36,17 @@ Status youngs_law_fits(const Study& study, const Subject& s, const std::string& 
   return {};
 }
 
+/// Beside a modulus in the plane of this part of the tension angles and radii are those of a fluid within some percent.
+constexpr double kHardlyElastic = 0.05;
+
+std::string elastic_beside_tension(const Study& study, const Subject& s) {
+  const CellType& type = type_of(study, s);
+  const double part = spring_modulus(type) / tension_at(type, 0.0);
+  if (!(part > kHardlyElastic) || type.shell.turnover_rate > 0.0) return "";
+  return "knows a surface tension alone, and the cortex is elastic, too: its modulus in the plane is " + number_text("%.2g", part) +
+         " times the tension";
+}
+
 theory::Cap young(const Study& study, const Subject& s, double time) {
   const CellType& type = type_of(study, s);
   const double adhesion = adhesion_of(study, s), tension = tension_at(type, time);
@@ -90,7 +101,8 @@ Theory youngs_law() {
       "Young 1805; physics/dcm.md §8",
       {"cap.angle", "cap.radius", "cap.contact_radius", "cap.height", "cap.length", "cap.pressure", "cap.contact_part", "aggregate.angle"},
       &youngs_law_fits,
-      &youngs_law_value};
+      &youngs_law_value,
+      &elastic_beside_tension};
 }
 
 Theory elastic_cap_theory() {

@@ -18,6 +18,8 @@ struct Theory {
   std::function<Status(const Study&, const Subject&, const std::string& measure)> fits;
   /// What it expects in the place of a value that was measured, in internal units. Errors: kFile.
   std::function<Result<double>(FinishedRun&, const Subject&, const std::string& measure, const Sample&)> value;
+  /// What there is beside all that it knows, as the message of a warning: "knows no elastic cortex"; empty: nothing.
+  std::function<std::string(const Study&, const Subject&)> doubt{};
 
   [[nodiscard]] bool is_about(const std::string& measure) const;
   /// What it predicts, for people.

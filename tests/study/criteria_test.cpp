@@ -177,6 +177,16 @@ TEST(Criteria, AreHeldAgainstTheoriesThatFit) {
   EXPECT_THAT(message_of("measure: cap.contact_radius, of: {pair: [left, right]}, against: elastic_cap, within: 3 %"),
               AllOf(HasSubstr("'elastic_cap' knows cells of 642 nodes and more whose E h is twice the tension"), HasSubstr("E413")));
   EXPECT_THAT(message_of("measure: cell_count, against: exponential_growth, within: 3 %"), HasSubstr("with a cycle"));
+  const auto warnings = [](const char* cortex) {
+    const auto study = read(changed("dcm: {nodes: 162, cortex: {tension: 0.1 mN/m}}",
+                                    std::string("dcm: {nodes: 162, cortex: {tension: 0.1 mN/m, ") + cortex + "}}",
+                                    criterion("measure: cap.angle, of: {pair: [left, right]}, against: youngs_law, within: 4 deg")),
+                            with_criteria());
+    return study.ok() ? study->warnings.text() : study.error().text();
+  };
+  EXPECT_THAT(warnings("elastic: springs, young: 1 kPa"),
+              AllOf(HasSubstr("'youngs_law' knows a surface tension alone"), HasSubstr("is 2 times the tension"), HasSubstr("[E413]")));
+  EXPECT_THAT(warnings("elastic: none"), testing::Not(HasSubstr("E413")));
 }
 
 TEST(Criteria, OfPopulationsThatGrowExponentiallyNeedCellsThatAllDivide) {
