@@ -41,7 +41,8 @@ Status write_pictures(const scenarios::Study& study, const fs::path& run, const 
   for (const scenarios::Picture& picture : scenarios::standard_pictures(snapshots, scenarios::type_colors(study))) {
     if (!wanted(picture.name, only)) continue;
     const fs::path path = run / "plots" / (picture.name + ".png");
-    MORULA_TRY(scenarios::write_png(picture.image, path));
+    MORULA_TRY_ASSIGN(const std::vector<std::uint8_t> png, scenarios::encode_png(picture.image));
+    MORULA_TRY(scenarios::write_png(png, path));
     written += path.string() + "\n";
   }
   return {};

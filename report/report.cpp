@@ -6,7 +6,6 @@
 
 #include "report/pictures/annotate.h"
 #include "report/pictures/curves.h"
-#include "report/pictures/png.h"
 #include "report/report_style.h"
 #include "results/file_io.h"
 
@@ -99,57 +98,52 @@ void add_tables(std::string& out, const ReportContent& content) {
   }
 }
 
-Status add_figure(std::string& out, const Picture& picture, bool hidden) {
-  MORULA_TRY_ASSIGN(const auto png, encode_png(picture.image));
+void add_figure(std::string& out, const EncodedPicture& picture, bool hidden) {
   const std::string caption = xml_escaped(picture.caption);
-  add(out, hidden ? "<figure hidden=\"hidden\">" : "<figure>", "<img src=\"data:image/png;base64,", base64(png), "\" width=\"",
-      std::to_string(picture.image.width), "\" height=\"", std::to_string(picture.image.height), "\" alt=\"", caption, "\"/><figcaption>",
-      caption, "</figcaption></figure>\n");
-  return {};
+  add(out, hidden ? "<figure hidden=\"hidden\">" : "<figure>", "<img src=\"data:image/png;base64,", base64(picture.png), "\" width=\"",
+      std::to_string(picture.width), "\" height=\"", std::to_string(picture.height), "\" alt=\"", caption, "\"/><figcaption>", caption,
+      "</figcaption></figure>\n");
 }
 
 /// The row a frame belongs to: its name without the number at the end.
-std::string_view row_of(const Picture& picture) {
+std::string_view row_of(const EncodedPicture& picture) {
   const std::string_view name = picture.name;
   return name.substr(0, name.find_last_not_of("0123456789") + 1);
 }
 
 /// Frames of one row with a slider; the last is shown first.
-Status add_film(std::string& out, std::span<const Picture* const> frames) {
+void add_film(std::string& out, std::span<const EncodedPicture* const> frames) {
   // The slider shows the figure of its number. No `<` and no `&` in the script: the page stays well-formed.
   static constexpr const char* kShow =
       "var f=this.parentNode.parentNode.getElementsByTagName('figure');for(var i=0;i!=f.length;i+=1)f[i].hidden=(i!=this.value)";
   add(out, "<div class=\"film\">\n");
-  for (const Picture* frame : frames) MORULA_TRY(add_figure(out, *frame, frame != frames.back()));
+  for (const EncodedPicture* frame : frames) add_figure(out, *frame, frame != frames.back());
   if (frames.size() > 1)
     add(out, "<label>", xml_escaped(short_time(frames.front()->time)), " <input type=\"range\" min=\"0\" max=\"",
         std::to_string(frames.size() - 1), "\" value=\"", std::to_string(frames.size() - 1), "\" aria-label=\"time\" oninput=\"", kShow,
         "\"/> ", xml_escaped(short_time(frames.back()->time)), "</label>\n");
   add(out, "</div>\n");
-  return {};
 }
 
-Status add_films(std::string& out, const ReportContent& content) {
-  std::vector<std::vector<const Picture*>> films;
-  for (const Picture& picture : content.pictures) {
+void add_films(std::string& out, const ReportContent& content) {
+  std::vector<std::vector<const EncodedPicture*>> films;
+  for (const EncodedPicture& picture : content.pictures) {
     if (!picture.frame) continue;
     if (films.empty() || row_of(*films.back().back()) != row_of(picture)) films.emplace_back();
     films.back().push_back(&picture);
   }
-  if (films.empty()) return {};
+  if (films.empty()) return;
   add(out, "<section>\n<h2>Over time</h2>\n<div class=\"large\">\n");
-  for (const auto& film : films) MORULA_TRY(add_film(out, film));
+  for (const auto& film : films) add_film(out, film);
   add(out, "</div>\n</section>\n");
-  return {};
 }
 
-Status add_final_pictures(std::string& out, const ReportContent& content) {
-  if (std::all_of(content.pictures.begin(), content.pictures.end(), [](const Picture& picture) { return picture.frame; })) return {};
+void add_final_pictures(std::string& out, const ReportContent& content) {
+  if (std::all_of(content.pictures.begin(), content.pictures.end(), [](const EncodedPicture& picture) { return picture.frame; })) return;
   add(out, "<section>\n<h2>Final state</h2>\n<div class=\"large\">\n");
-  for (const Picture& picture : content.pictures)
-    if (!picture.frame) MORULA_TRY(add_figure(out, picture, false));
+  for (const EncodedPicture& picture : content.pictures)
+    if (!picture.frame) add_figure(out, picture, false);
   add(out, "</div>\n</section>\n");
-  return {};
 }
 
 void add_plots(std::string& out, const ReportContent& content, bool numerics) {
@@ -279,14 +273,14 @@ std::string base64(const std::vector<std::uint8_t>& bytes) {
   return out;
 }
 
-Result<std::string> report_html(const ReportContent& content) {
+std::string report_html(const ReportContent& content) {
   std::string out;
   add_head(out, content);
   add_verdict(out, content);
   add_key_numbers(out, content);
   add_tables(out, content);
-  MORULA_TRY(add_films(out, content));
-  MORULA_TRY(add_final_pictures(out, content));
+  add_films(out, content);
+  add_final_pictures(out, content);
   add_plots(out, content, false);
   add_events(out, content);
   add_exchanges(out, content);
@@ -302,8 +296,7 @@ Result<std::string> report_html(const ReportContent& content) {
 }
 
 Status write_report(const ReportContent& content, const std::filesystem::path& path) {
-  MORULA_TRY_ASSIGN(const std::string html, report_html(content));
-  return write_file_atomically(path, html);
+  return write_file_atomically(path, report_html(content));
 }
 
 }  // namespace morula::scenarios

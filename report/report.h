@@ -74,7 +74,7 @@ struct ReportContent {
   std::vector<NotChecked> not_checked;  ///< what a reader of the criteria must not take for granted
   std::vector<ReportNumber> key_numbers;
   std::vector<ReportTable> tables;
-  std::vector<Picture> pictures;
+  std::vector<EncodedPicture> pictures;
   std::vector<ReportPlot> plots;
   std::vector<ReportLimit> limits;
   std::vector<ReportEvents> events;
@@ -90,7 +90,7 @@ struct ReportContent {
 /// script is that of the slider over the frames. Criteria of a library study are its verdict, those of a user's study numerical checks.
 /// Follows the reader's light or dark setting, and prints all frames. All text is escaped; the SVG of plots is taken as it is. Error: a
 /// picture could not be encoded.
-Result<std::string> report_html(const ReportContent& content);
+std::string report_html(const ReportContent& content);
 
 /// report_html to a file, which is replaced only when all is written.
 Status write_report(const ReportContent& content, const std::filesystem::path& path);

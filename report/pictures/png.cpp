@@ -40,9 +40,8 @@ Result<std::vector<std::uint8_t>> encode_png(const Image& image) {
   return out;
 }
 
-Status write_png(const Image& image, const std::filesystem::path& path) {
-  MORULA_TRY_ASSIGN(const auto bytes, encode_png(image));
-  return write_file_atomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+Status write_png(const std::vector<std::uint8_t>& png, const std::filesystem::path& path) {
+  return write_file_atomically(path, {reinterpret_cast<const char*>(png.data()), png.size()});
 }
 
 }  // namespace morula::scenarios

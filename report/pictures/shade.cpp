@@ -41,7 +41,13 @@ class Shader {
  public:
   Shader(const PixelBuffer& pixels, std::span<const Rgb> colors, std::span<const std::optional<Rgb>> face_colors,
          const DrawnSurroundings& around, const ShadeOptions& options)
-      : pixels_(pixels), colors_(colors), face_colors_(face_colors), around_(around), options_(options), spiral_(spiral()) {
+      : pixels_(pixels),
+        colors_(colors),
+        face_colors_(face_colors),
+        around_(around),
+        options_(options),
+        is_smooth_(face_colors.empty() && around.fluid.empty() && !around.obstacles && options.samples % 2 == 1),
+        spiral_(spiral()) {
     reach_px_ = static_cast<float>(std::clamp(1.3 * options.cell_radius * options.pixels_per_um, 2.0, 150.0));
     const double cell_px = 2.0 * options.cell_radius * options.pixels_per_um / options.samples;
     line_opacity_ = static_cast<float>(std::clamp((cell_px - 3.0) / 18.0, 0.12, 0.88));
@@ -66,8 +72,10 @@ class Shader {
     const std::int32_t whole = whole_[index_of_pixel(column, row)];
     const bool inner = is_inner(column, row);
     if (whole == PixelBuffer::kNothing && inner && around_.fluid.empty() && !around_.obstacles) return kBackground;
-    const std::optional<float> open = has_openness(whole) ? std::optional(mean_openness(column, row)) : std::nullopt;
+    std::optional<float> open;
+    if (has_openness(whole)) open = mean_openness(column, row);
     const bool lines = options_.outlines && !inner;
+    if (inner && is_smooth_) return sub_pixel(x + n / 2, y + n / 2, open, lines);  // its light is that of its middle
     Rgb sum;
     for (int sy = 0; sy < n; ++sy)
       for (int sx = 0; sx < n; ++sx) sum = sum + sub_pixel(x + sx, y + sy, open, lines);
@@ -220,6 +228,7 @@ class Shader {
   std::span<const std::optional<Rgb>> face_colors_;
   const DrawnSurroundings& around_;
   ShadeOptions options_;
+  bool is_smooth_;  ///< light and colour change slowly over each surface
   std::array<Offset, kOcclusionSamples> spiral_;
   std::array<Offset, kTurns> turn_{};
   std::vector<std::int32_t> whole_;  ///< by pixel: the surface that all of its sub-pixels show, or kMixed

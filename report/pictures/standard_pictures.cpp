@@ -5,6 +5,7 @@
 #include <set>
 
 #include "report/pictures/annotate.h"
+#include "report/pictures/png.h"
 #include "report/pictures/renderer.h"
 #include "report/pictures/view.h"
 
@@ -57,6 +58,12 @@ RenderOptions colored(ColorBy by, const ColorScale& scale = {}, std::size_t fiel
 }
 
 }  // namespace
+
+Result<EncodedPicture> encoded(const Picture& picture) {
+  MORULA_TRY_ASSIGN(std::vector<std::uint8_t> png, encode_png(picture.image));
+  return EncodedPicture{picture.name,        picture.caption,      picture.time,  picture.frame,
+                        picture.image.width, picture.image.height, std::move(png)};
+}
 
 std::vector<Picture> standard_pictures(std::span<const Snapshot> snapshots, const TypeColors& type_colors) {
   if (snapshots.empty()) return {};

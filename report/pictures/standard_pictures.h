@@ -1,8 +1,10 @@
 #pragma once
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "core/result.h"
 #include "report/pictures/coloring.h"
 #include "report/pictures/image.h"
 #include "results/snapshot.h"
@@ -17,6 +19,17 @@ struct Picture {
   bool frame = false;  ///< one of a row over time; else a large picture of the last snapshot
   Image image;
 };
+
+/// A picture as files hold it.
+struct EncodedPicture {
+  std::string name, caption;  ///< as those of Picture
+  double time = 0.0;          ///< [s]
+  bool frame = false;
+  int width = 0, height = 0;  ///< [pixels]
+  std::vector<std::uint8_t> png;
+};
+/// kResources where libpng has no memory.
+Result<EncodedPicture> encoded(const Picture& picture);
 
 /// The pictures every run gets. `snapshots` in order of time, usually at 0, 25, 50, 75 and 100 % of a run.
 ///

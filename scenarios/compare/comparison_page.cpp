@@ -105,7 +105,8 @@ Status add_cells(const RunGroup& group, const std::shared_ptr<const Laws>& laws,
   for (Picture& picture : standard_pictures(snapshots, type_colors(study))) {
     if (picture.frame || !(picture.name.starts_with("cut_body") || picture.name.starts_with("cut_pressure"))) continue;
     picture.caption = group.name + ": " + picture.caption;
-    content.pictures.push_back(std::move(picture));
+    MORULA_TRY_ASSIGN(EncodedPicture of_group, encoded(picture));
+    content.pictures.push_back(std::move(of_group));
   }
   return {};
 }

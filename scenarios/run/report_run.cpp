@@ -264,9 +264,12 @@ Result<fs::path> write_run_report(const Study& study, const RunRecord& record, c
     content.plots.push_back({caption_of(one, series), curves_svg(one.plot, SvgUse::kInline), one.numerics});  // the plot has its title
   }
   MORULA_TRY_ASSIGN(const auto snapshots, snapshots_over_time(run / "results.h5", content.warnings));
-  content.pictures = standard_pictures(snapshots, type_colors(study));
+  for (const Picture& picture : standard_pictures(snapshots, type_colors(study))) {
+    MORULA_TRY_ASSIGN(EncodedPicture one, encoded(picture));
+    MORULA_TRY(write_png(one.png, run / "plots" / (one.name + ".png")));
+    content.pictures.push_back(std::move(one));
+  }
   if (auto table = interface_table(study, snapshots)) content.tables.push_back(std::move(*table));
-  for (const Picture& picture : content.pictures) MORULA_TRY(write_png(picture.image, run / "plots" / (picture.name + ".png")));
   add_key_numbers(record, series, content);
   add_cost_by_body(study, record, series, content);
   add_limit(series, "volume_error", "volume error", study.model.limits.volume_error, "", content);

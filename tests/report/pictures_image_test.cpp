@@ -178,7 +178,7 @@ TEST(PicturesText, BrokenUtf8IsDrawnAsABoxAndEveryGlyphLeavesInk) {
 }
 
 TEST(PicturesImage, UnwritableFolderGivesAFileError) {
-  const Status status = write_png(Image(2, 2, {}), "/nonexistent-folder/picture.png");
+  const Status status = write_png({1, 2}, "/nonexistent-folder/picture.png");
   ASSERT_FALSE(status.ok());
   EXPECT_EQ(status.error().kind, ErrorKind::kFile);
 }

@@ -22,7 +22,8 @@ ReportContent full_content() {
   content.title = content.study = content.scenario = content.summary = content.state = kNasty;
   content.criteria = {{kNasty, kNasty, kNasty, kNasty, true}, {"S1.2", "a criterion", "3 µm", "≤ 2 µm", false}};
   content.key_numbers = {{kNasty, kNasty, kNasty}};
-  content.pictures = {{"a", kNasty, 0.0, true, Image(3, 2, {0.5f, 0.5f, 0.5f})}, {"b", kNasty, 60.0, false, Image(3, 2, {})}};
+  content.pictures = {encoded({"a", kNasty, 0.0, true, Image(3, 2, {0.5f, 0.5f, 0.5f})}).value(),
+                      encoded({"b", kNasty, 60.0, false, Image(3, 2, {})}).value()};
   content.plots = {{kNasty, curves_svg(some_plot(), SvgUse::kInline)}};
   content.limits = {{kNasty, 0.01, 0.02, "1", 60.0}, {"overlap", 0.4, 0.3, "µm", -1.0}, {"balance", std::nan(""), 1.0, "1", -1.0}};
   content.events = {{kNasty, 3, 10.0, 100.0}};
@@ -43,14 +44,13 @@ TEST(XmlCheck, FindsWhatIsWrong) {
 
 TEST(Report, IsWellFormedSelfContainedAndEscaped) {
   const auto html = report_html(full_content());
-  ASSERT_TRUE(html.ok());
-  EXPECT_EQ(xml_fault(*html), "");
-  EXPECT_EQ(html->find("<script"), std::string::npos);
-  EXPECT_EQ(html->find("src=\"http"), std::string::npos);
-  EXPECT_EQ(html->find("href="), std::string::npos);
-  EXPECT_NE(html->find("1 of 2 criteria passed"), std::string::npos);
-  EXPECT_NE(html->find("data:image/png;base64,iVBORw0KGgo"), std::string::npos);  // the PNG signature
-  EXPECT_EQ(*html, *report_html(full_content()));
+  EXPECT_EQ(xml_fault(html), "");
+  EXPECT_EQ(html.find("<script"), std::string::npos);
+  EXPECT_EQ(html.find("src=\"http"), std::string::npos);
+  EXPECT_EQ(html.find("href="), std::string::npos);
+  EXPECT_NE(html.find("1 of 2 criteria passed"), std::string::npos);
+  EXPECT_NE(html.find("data:image/png;base64,iVBORw0KGgo"), std::string::npos);  // the PNG signature
+  EXPECT_EQ(html, report_html(full_content()));
 }
 
 std::size_t count_of(const std::string& text, const std::string& what) {
@@ -62,35 +62,33 @@ std::size_t count_of(const std::string& text, const std::string& what) {
 TEST(Report, FramesOfARowHaveOneSliderAndShowTheLast) {
   ReportContent content;
   for (const char* name : {"cells_00", "cells_01", "cells_02", "cut_pressure_00", "cut_pressure_01", "alone_00"})
-    content.pictures.push_back({name, name, 60.0 * static_cast<double>(content.pictures.size()), true, Image(3, 2, {})});
+    content.pictures.push_back(encoded({name, name, 60.0 * static_cast<double>(content.pictures.size()), true, Image(3, 2, {})}).value());
   const auto html = report_html(content);
-  ASSERT_TRUE(html.ok());
-  EXPECT_EQ(xml_fault(*html), "");
-  EXPECT_EQ(count_of(*html, "class=\"film\""), 3u);
-  EXPECT_EQ(count_of(*html, "type=\"range\" min=\"0\" max=\"2\" value=\"2\""), 1u);
-  EXPECT_EQ(count_of(*html, "type=\"range\" min=\"0\" max=\"1\" value=\"1\""), 1u);
-  EXPECT_EQ(count_of(*html, "type=\"range\""), 2u) << "a single frame needs none";
-  EXPECT_EQ(count_of(*html, "<figure hidden=\"hidden\">"), 3u);
-  EXPECT_EQ(count_of(*html, "<figure><img"), 3u);
+  EXPECT_EQ(xml_fault(html), "");
+  EXPECT_EQ(count_of(html, "class=\"film\""), 3u);
+  EXPECT_EQ(count_of(html, "type=\"range\" min=\"0\" max=\"2\" value=\"2\""), 1u);
+  EXPECT_EQ(count_of(html, "type=\"range\" min=\"0\" max=\"1\" value=\"1\""), 1u);
+  EXPECT_EQ(count_of(html, "type=\"range\""), 2u) << "a single frame needs none";
+  EXPECT_EQ(count_of(html, "<figure hidden=\"hidden\">"), 3u);
+  EXPECT_EQ(count_of(html, "<figure><img"), 3u);
 }
 
 TEST(Report, SolverPlotsLieBelowAFold) {
   ReportContent content;
   content.plots = {{"size of the tissue", "<svg id=\"a\"></svg>", false}, {"step size", "<svg id=\"b\"></svg>", true}};
   const auto html = report_html(content);
-  ASSERT_TRUE(html.ok());
-  EXPECT_EQ(xml_fault(*html), "");
-  const std::size_t fold = html->find("<details>"), first = html->find("id=\"a\""), second = html->find("id=\"b\"");
+  EXPECT_EQ(xml_fault(html), "");
+  const std::size_t fold = html.find("<details>"), first = html.find("id=\"a\""), second = html.find("id=\"b\"");
   EXPECT_LT(first, fold);
   EXPECT_LT(fold, second);
-  EXPECT_LT(second, html->find("</details>"));
+  EXPECT_LT(second, html.find("</details>"));
 }
 
 TEST(Report, ChecksOfAUsersStudySayWhatTheyDoNotTell) {
   ReportContent content;
   content.criteria = {{"INV.4", "overlap", "0.1 um", "<= 0.3 um", true}};
   content.not_checked = {{"", "the parameters", "nobody has measured them"}};
-  std::string html = *report_html(content);
+  std::string html = report_html(content);
   EXPECT_NE(html.find("<h2>Numerical checks</h2>"), std::string::npos);
   EXPECT_EQ(html.find("<h2>Verdict</h2>"), std::string::npos);
   EXPECT_NE(html.find("1 of 1 checks passed"), std::string::npos);
@@ -98,7 +96,7 @@ TEST(Report, ChecksOfAUsersStudySayWhatTheyDoNotTell) {
   EXPECT_NE(html.find("the parameters"), std::string::npos);
   EXPECT_NE(html.find("&lt;= 0.3 µm"), std::string::npos);
   content.criteria.push_back({"S6.1", "angle", "60 deg", "58 to 62 deg", true});
-  html = *report_html(content);
+  html = report_html(content);
   EXPECT_NE(html.find("<h2>Verdict</h2>"), std::string::npos);
   EXPECT_NE(html.find("2 of 2 criteria passed"), std::string::npos);
 }
@@ -110,24 +108,21 @@ TEST(Report, HoldsTheStudyAndHowToCite) {
   content.citation = "Morula 0.1.0";
   content.bibtex = "@software{morula,\n}";
   const auto html = report_html(content);
-  ASSERT_TRUE(html.ok());
-  EXPECT_EQ(xml_fault(*html), "");
+  EXPECT_EQ(xml_fault(html), "");
   for (const char* part : {"study: &lt;mine&gt;", "radius: 6 um", "Morula 0.1.0", "@software{morula,"})
-    EXPECT_NE(html->find(part), std::string::npos) << part;
+    EXPECT_NE(html.find(part), std::string::npos) << part;
 }
 
 TEST(Report, LimitThatIsCrossedOrNotANumberIsNotKept) {
   const auto html = report_html(full_content());
-  ASSERT_TRUE(html.ok());
   std::size_t crossed = 0;
-  for (std::size_t at = html->find("✗ crossed"); at != std::string::npos; at = html->find("✗ crossed", at + 1)) ++crossed;
+  for (std::size_t at = html.find("✗ crossed"); at != std::string::npos; at = html.find("✗ crossed", at + 1)) ++crossed;
   EXPECT_EQ(crossed, 2u);
 }
 
 TEST(Report, EmptyRunGivesAPageToo) {
   const auto html = report_html({});
-  ASSERT_TRUE(html.ok());
-  EXPECT_EQ(xml_fault(*html), "");
+  EXPECT_EQ(xml_fault(html), "");
 }
 
 TEST(Report, FailsWithAFileErrorWhereItCannotWrite) {
