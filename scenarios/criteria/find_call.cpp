@@ -186,10 +186,26 @@ class Finder {
     return {subject};
   }
 
+  /// Whether cells begin with a type, or come to have it by division.
+  [[nodiscard]] bool has_cells(int type) const {
+    const auto of_type = static_cast<std::uint16_t>(type);
+    const auto leads_to_it = [of_type](const Fate& fate) { return std::ranges::find(fate.type, of_type) != fate.type.end(); };
+    return std::ranges::any_of(study_.initial, [of_type](const InitialCells& cells) { return cells.may_have(of_type); }) ||
+           std::ranges::any_of(study_.model.types,
+                               [&](const CellType& mother) { return std::ranges::any_of(mother.fates.all, leads_to_it); });
+  }
+  /// A type that is there, and E412 as a warning where no cell is ever of it.
+  int find_type(const std::string& name, const Place& place) {
+    const int out = find(name, names_of(study_.model.types), place, 401, "cell type");
+    if (out >= 0 && !has_cells(out))
+      diagnostics_.warning(412, place, "no cell is ever of type '" + name + "': there is nothing to measure", "");
+    return out;
+  }
+
   std::vector<Subject> type(const std::string& name, const Place& place) {
     Subject out;
     out.text = name;
-    out.type = find(name, names_of(study_.model.types), place, 401, "cell type");
+    out.type = find_type(name, place);
     return kept(out, out.type >= 0, place);
   }
 
@@ -218,7 +234,7 @@ class Finder {
   std::vector<Subject> pair(const std::string& first, const std::string& second, const Place& place) {
     Subject out;
     Names materials = names_of(study_.model.types);
-    out.type = find(first, materials, place, 401, "cell type");
+    out.type = find_type(first, place);
     const int types = static_cast<int>(materials.size());
     if (measure_.of == MeasureOf::kContact)
       for (const ObstacleSpec& obstacle : study_.model.obstacles) materials.push_back(obstacle.name);

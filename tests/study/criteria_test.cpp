@@ -138,6 +138,11 @@ TEST(Criteria, AreTakenOfWhatTheMeasureIsTakenOf) {
   EXPECT_THAT(message_of("measure: volume(left), of: {type: left}, above: 3 um^3"),
               AllOf(HasSubstr("says it once more"), HasSubstr("E412")));
   EXPECT_THAT(message_of("measure: cap.angle, of: {pair: [left]}, above: 3 deg"), HasSubstr("needs 2"));
+  const auto idle =
+      read(changed("  right: {radius", "  idle: {radius: 6 um}\n  right: {radius", criterion("measure: volume(idle), above: 3 um^3")),
+           with_criteria());
+  ASSERT_TRUE(idle.ok()) << idle.error().text();
+  EXPECT_THAT(idle->warnings.text(), AllOf(HasSubstr("no cell is ever of type 'idle': there is nothing to measure"), HasSubstr("[E412]")));
   const auto spheres = read(changed(", as: shell, orientation: aligned}\n  - {type: right", "}\n  - {type: right",
                                     criterion("measure: least_angle(left), above: 15 deg")),
                             with_criteria());
