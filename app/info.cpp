@@ -25,7 +25,7 @@ std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::er
 /// The Tissue of the newest good checkpoint of a run, counted and hashed; nothing if there is no checkpoint yet.
 Result<scenarios::FinalState> newest_state(const scenarios::RunFolder& run, const Context& context) {
   const Comm alone;
-  const auto study = scenarios::read_study(run.path() / "study.resolved.yaml", {.laws = context.laws, .judge_places = false});
+  const auto study = scenarios::read_study(run.resolved_study(), {.laws = context.laws, .judge_places = false});
   if (!study.ok()) return study.error().as_error();
   ShapeLibrary shapes;
   MORULA_TRY_ASSIGN(const scenarios::RestoredCheckpoint restored,
@@ -69,7 +69,7 @@ std::string text_of(const RunOverview& run, const scenarios::FinalState& state) 
 Status info_of_run(const InfoOptions& options, const Context& context) {
   MORULA_TRY_ASSIGN(const scenarios::RunFolder folder, scenarios::RunFolder::open(options.target, Comm()));
   if (options.defaults) {
-    MORULA_TRY_ASSIGN(const std::string resolved, scenarios::read_file(folder.path() / "study.resolved.yaml"));
+    MORULA_TRY_ASSIGN(const std::string resolved, scenarios::read_file(folder.resolved_study()));
     context.console.result(resolved);
     return {};
   }

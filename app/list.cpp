@@ -6,6 +6,7 @@
 #include "app/verbs.h"
 #include "app/words.h"
 #include "results/file_io.h"
+#include "results/run_files.h"
 #include "scenarios/run/progress.h"
 
 namespace morula::app {
@@ -17,7 +18,7 @@ Result<std::vector<RunOverview>> runs_in(const fs::path& folder, const Context& 
   std::vector<fs::path> paths;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     std::error_code missing;
-    if (fs::exists(entry->path() / "run.json", missing)) paths.push_back(entry->path());
+    if (fs::exists(scenarios::RunFiles(entry->path()).record(), missing)) paths.push_back(entry->path());
   }
   if (error) return scenarios::file_error(folder, "read", error.value());
   std::sort(paths.begin(), paths.end());

@@ -17,16 +17,16 @@ namespace {
 /// The checkpoint the user names: a path, or a file name in the run with or without its ending.
 Result<fs::path> find_checkpoint(const fs::path& run, const std::string& from) {
   std::error_code error;
-  for (const fs::path& path : {run / "checkpoints" / from, run / "checkpoints" / (from + ".h5"), fs::path(from)})
+  const fs::path folder = scenarios::RunFiles(run).checkpoints();
+  for (const fs::path& path : {folder / from, folder / (from + ".h5"), fs::path(from)})
     if (fs::is_regular_file(path, error)) return path;
-  const std::string there =
-      joined(scenarios::checkpoints_in(run / "checkpoints"), [](const fs::path& path) { return path.stem().string(); });
+  const std::string there = joined(scenarios::checkpoints_in(folder), [](const fs::path& path) { return path.stem().string(); });
   return Error{ErrorKind::kFile, "there is no checkpoint '" + from + "' in '" + run.string() + "'",
                there.empty() ? "the run has no checkpoints" : "there are: " + there};
 }
 
 bool is_newest(const fs::path& run, const fs::path& checkpoint) {
-  const auto all = scenarios::checkpoints_in(run / "checkpoints");
+  const auto all = scenarios::checkpoints_in(scenarios::RunFiles(run).checkpoints());
   std::error_code error;
   return !all.empty() && fs::equivalent(all.front(), checkpoint, error);
 }
@@ -36,9 +36,8 @@ bool is_newest(const fs::path& run, const fs::path& checkpoint) {
 Status resume(const ResumeOptions& options, const Context& context) {
   outlive_closed_pipes();
   MORULA_TRY_ASSIGN(const scenarios::RunFolder folder, scenarios::RunFolder::open(options.run, context.comm));
-  auto study =
-      read_study_and_tell((folder.path() / "study.resolved.yaml").string(), options.overrides, false, context, {.judge_places = false});
-  MORULA_TRY(agree_on(study, (folder.path() / "study.resolved.yaml").string(), context));
+  auto study = read_study_and_tell(folder.resolved_study().string(), options.overrides, false, context, {.judge_places = false});
+  MORULA_TRY(agree_on(study, folder.resolved_study().string(), context));
   for (const std::string& change : options.overrides) {
     const std::string key = change.substr(0, change.find('='));
     if (key == "initial" || key.starts_with("initial.") || (key.starts_with("fields.") && key.ends_with(".initial")))

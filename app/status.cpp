@@ -28,7 +28,7 @@ std::string status_text(const RunOverview& run) {
     out += ", left " + scenarios::duration_text(status.left_low) + " to " + scenarios::duration_text(status.left_high);
   out += "\n  as of  " + status.updated + "\n";
   if (!run.record.message.empty()) out += "  why    " + run.record.message + "\n";
-  if (run.lost && scenarios::checkpoints_in(run.path / "checkpoints").empty())
+  if (run.lost && scenarios::checkpoints_in(scenarios::RunFiles(run.path).checkpoints()).empty())
     out += "  next   it came to no checkpoint; begin again: " + run.record.command + "\n";
   else if (run.lost || status.state == RunState::kStopped)
     out += "  next   morula resume " + shell_word(run.path.string()) + " --until " + number_text("%.15g", status.end) + "s\n";

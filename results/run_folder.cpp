@@ -124,7 +124,7 @@ Result<RunFolder> RunFolder::open(const fs::path& path, const Comm& comm) {
   if (comm.is_root()) {
     if (!fs::is_directory(path, ignored))
       status = Error{ErrorKind::kFile, "there is no run '" + path.string() + "'", "`morula list` shows the runs"};
-    else if (!fs::exists(path / "run.json", ignored))
+    else if (!fs::exists(RunFiles(path).record(), ignored))
       status = Error{ErrorKind::kFile, "'" + path.string() + "' is not a run: it has no run.json", "`morula list` shows the runs"};
   }
   MORULA_TRY(agree(std::move(status), comm));
@@ -133,14 +133,14 @@ Result<RunFolder> RunFolder::open(const fs::path& path, const Comm& comm) {
 
 Status RunFolder::write_study(const Study& study, RunRecord& record) const {
   if (!is_root_) return {};
-  MORULA_TRY(write_file_atomically(path_ / "study.yaml", study.source_text));
-  MORULA_TRY(write_file_atomically(path_ / "study.resolved.yaml", study.resolved_text));
+  MORULA_TRY(write_file_atomically(RunFiles::study(), study.source_text));
+  MORULA_TRY(write_file_atomically(resolved_study(), study.resolved_text));
   MORULA_TRY_ASSIGN(const std::string source_hash, sha256_of_text(study.source_text));
   MORULA_TRY_ASSIGN(record.study_hash, sha256_of_text(study.resolved_text));
   record.inputs = {{study.source_path, "study.yaml", source_hash}};
-  MORULA_TRY(make_folder(path_ / "inputs"));
+  MORULA_TRY(make_folder(path() / "inputs"));
   for (const InputFile& input : study.input_files) {
-    MORULA_TRY_ASSIGN(InputRecord copied, copy_input(input, path_));
+    MORULA_TRY_ASSIGN(InputRecord copied, copy_input(input, path()));
     record.inputs.push_back(std::move(copied));
   }
   return {};
@@ -149,7 +149,7 @@ Status RunFolder::write_study(const Study& study, RunRecord& record) const {
 Status RunFolder::write_record(const RunRecord& run) const {
   if (!is_root_) return {};
   std::error_code ignored;
-  if (run.state == RunState::kRunning) fs::remove(path_ / "FAILED", ignored);  // from before a resume
+  if (run.state == RunState::kRunning) fs::remove(path() / "FAILED", ignored);  // from before a resume
   Status written = write_file_atomically(record(), to_json(run));
   if (!written.ok() && run.state == RunState::kFailed) {
     fs::remove(status(), ignored);  // room on a full disk: it says nothing that run.json does not
@@ -159,12 +159,12 @@ Status RunFolder::write_record(const RunRecord& run) const {
   const bool failed = run.state == RunState::kFailed || (run.state == RunState::kDone && run.exit_code != 0);
   for (const auto& [marker, holds] : {std::pair{"DONE", run.state == RunState::kDone && !failed}, std::pair{"FAILED", failed}}) {
     if (!holds) {
-      fs::remove(path_ / marker, ignored);  // from before a resume
+      fs::remove(path() / marker, ignored);  // from before a resume
       continue;
     }
-    Status marked = write_file_atomically(path_ / marker, run.message.empty() ? "" : run.message + '\n');
+    Status marked = write_file_atomically(path() / marker, run.message.empty() ? "" : run.message + '\n');
     // An empty file takes no room: the mark alone says how the run ended.
-    if (!marked.ok() && !OutputFile::open(path_ / marker, true).ok()) return marked;
+    if (!marked.ok() && !OutputFile::open(path() / marker, true).ok()) return marked;
   }
   return written;
 }
@@ -174,7 +174,7 @@ Status RunFolder::write_status(const RunStatus& run_status) const {
 }
 
 Status RunFolder::write_verdict(const Judgement& judgement) const {
-  return is_root_ ? write_file_atomically(path_ / "verdict.json", to_json(judgement)) : Status{};
+  return is_root_ ? write_file_atomically(verdict(), to_json(judgement)) : Status{};
 }
 
 Status RunFolder::add_to_log(const std::string& line) const { return is_root_ ? append_to_text(log(), line + '\n') : Status{}; }

@@ -8,6 +8,7 @@
 #include "core/parallel/comm.h"
 #include "core/result.h"
 #include "coupling/events.h"
+#include "results/run_files.h"
 #include "results/run_record.h"
 #include "results/text_lengths.h"
 #include "study/study.h"
@@ -20,25 +21,15 @@ struct SeriesHeader {
   std::string unit;  ///< "1" for a number
 };
 
-/// The folder of one run (UX, section 5): where each file is, and how the texts are written. Only the root rank touches texts: on the other
+/// The folder of one run, and how its texts are written. Only the root rank touches texts: on the other
 /// ranks the calls do nothing and succeed; pass the result to agree() where all ranks must know.
-class RunFolder {
+class RunFolder : public RunFiles {
  public:
   /// Collective. Makes `<parent>/<study>-NNNN` with the next free number, or exactly `out` if given. Never an existing folder: kFile.
   static Result<RunFolder> create(const std::filesystem::path& parent, const std::filesystem::path& out, const std::string& study,
                                   const Comm& comm);
   /// Collective. An existing run, to resume or to look at: kFile if it is none.
   static Result<RunFolder> open(const std::filesystem::path& path, const Comm& comm);
-
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  [[nodiscard]] std::filesystem::path results() const { return path_ / "results.h5"; }
-  [[nodiscard]] std::filesystem::path checkpoints() const { return path_ / "checkpoints"; }
-  [[nodiscard]] std::filesystem::path record() const { return path_ / "run.json"; }
-  [[nodiscard]] std::filesystem::path status() const { return path_ / "status.json"; }
-  [[nodiscard]] std::filesystem::path series() const { return path_ / "series.csv"; }
-  [[nodiscard]] std::filesystem::path events() const { return path_ / "events.jsonl"; }
-  [[nodiscard]] std::filesystem::path log() const { return path_ / "log.txt"; }
-  [[nodiscard]] std::filesystem::path vtk() const { return path_ / "vtk"; }
 
   /// study.yaml, study.resolved.yaml and inputs/; fills the record's inputs with their SHA-256.
   Status write_study(const Study& study, RunRecord& record) const;
@@ -60,8 +51,7 @@ class RunFolder {
   Result<bool> cut_back(double time, const TextLengths& lengths) const;
 
  private:
-  RunFolder(std::filesystem::path path, bool is_root) : path_(std::move(path)), is_root_(is_root) {}
-  std::filesystem::path path_;
+  RunFolder(std::filesystem::path path, bool is_root) : RunFiles(std::move(path)), is_root_(is_root) {}
   bool is_root_;
 };
 

@@ -9,6 +9,7 @@
 #include "report/report.h"
 #include "report/run_plots.h"
 #include "results/file_io.h"
+#include "results/run_files.h"
 #include "scenarios/run/interface_table.h"
 #include "scenarios/run/progress.h"
 #include "scenarios/run/report_run.h"
@@ -96,7 +97,7 @@ Status add_cells(const RunGroup& group, const std::shared_ptr<const Laws>& laws,
   const fs::path& path = group.runs[0].path;
   MORULA_TRY_ASSIGN(const Study study, read_run_study(path, laws));
   std::vector<std::pair<double, std::string>> damaged;
-  MORULA_TRY_ASSIGN(std::vector<Snapshot> snapshots, snapshots_over_time(path / "results.h5", damaged));
+  MORULA_TRY_ASSIGN(std::vector<Snapshot> snapshots, snapshots_over_time(RunFiles(path).results(), damaged));
   if (auto table = interface_table(study, snapshots)) {
     table->title += ": " + group.name;
     content.tables.push_back(std::move(*table));

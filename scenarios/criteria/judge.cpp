@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "coupling/changing_box.h"
+#include "results/run_files.h"
 #include "results/series_reader.h"
 #include "scenarios/criteria/judge_criteria.h"
 #include "scenarios/criteria/run_checks.h"
@@ -71,7 +72,7 @@ bool is_passive(const Study& study) {
 }
 
 Result<Judgement> common_criteria(const Study& study, const std::filesystem::path& run) {
-  MORULA_TRY_ASSIGN(const SeriesTable series, read_series(run / "series.csv"));
+  MORULA_TRY_ASSIGN(const SeriesTable series, read_series(RunFiles(run).series()));
   const Limits& limits = study.model.limits;
   Judgement out;
   out.not_checked = never_checked(study);

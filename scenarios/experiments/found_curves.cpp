@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/ball.h"
+#include "results/run_files.h"
 #include "results/series_reader.h"
 #include "scenarios/measures/single_cell.h"
 
@@ -21,7 +22,7 @@ Result<const SeriesColumn*> column(const SeriesTable& series, const char* name) 
 
 Result<std::vector<FoundPair>> pair_of_run(const Experiment& experiment, const std::filesystem::path& run) {
   MORULA_TRY_ASSIGN(const auto moments, all_snapshots(run));
-  MORULA_TRY_ASSIGN(const auto series, read_series(run / "series.csv"));
+  MORULA_TRY_ASSIGN(const auto series, read_series(RunFiles(run).series()));
   MORULA_TRY_ASSIGN(const SeriesColumn* times, column(series, "time"));
   MORULA_TRY_ASSIGN(const SeriesColumn* low, column(series, "grip_z_on_low"));
   MORULA_TRY_ASSIGN(const SeriesColumn* high, column(series, "grip_z_on_high"));
@@ -55,7 +56,7 @@ Result<calibrate::Relaxation> relaxation_of_run(const Experiment& experiment, co
 }
 
 Result<calibrate::PressedCluster> pressed_of_run(const Experiment& experiment, const std::filesystem::path& run) {
-  MORULA_TRY_ASSIGN(const auto series, read_series(run / "series.csv"));
+  MORULA_TRY_ASSIGN(const auto series, read_series(RunFiles(run).series()));
   MORULA_TRY_ASSIGN(const SeriesColumn* times, column(series, "time"));
   MORULA_TRY_ASSIGN(const SeriesColumn* lower, column(series, "force_z_lower"));
   MORULA_TRY_ASSIGN(const SeriesColumn* upper, column(series, "force_z_upper"));
@@ -71,7 +72,7 @@ Result<calibrate::PressedCluster> pressed_of_run(const Experiment& experiment, c
 }
 
 Result<std::vector<FoundPacking>> packing_of_run(const Experiment& experiment, const std::filesystem::path& run) {
-  MORULA_TRY_ASSIGN(const auto series, read_series(run / "series.csv"));
+  MORULA_TRY_ASSIGN(const auto series, read_series(RunFiles(run).series()));
   MORULA_TRY_ASSIGN(const SeriesColumn* volume, column(series, "box_volume"));
   MORULA_TRY_ASSIGN(const SeriesColumn* pressure, column(series, "box_pressure"));
   MORULA_TRY_ASSIGN(const SeriesColumn* cells, column(series, "cell_count"));

@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "results/file_io.h"
+#include "results/run_files.h"
 #include "results/run_record.h"
 #include "study/study.h"
 
@@ -21,7 +22,7 @@ struct Paths {
 };
 
 bool is_done(const Paths& paths) {
-  const auto record = read_run_record(paths.run / "run.json");
+  const auto record = read_run_record(RunFiles(paths.run).record());
   return record.ok() && record->state == RunState::kDone;
 }
 
@@ -56,7 +57,7 @@ Result<RunSummary> run_it(const Paths& paths, const Experiment& experiment, cons
   ResumeRequest how;
   how.threads = request.threads;
   how.stop = request.stop;
-  if (same && fs::exists(paths.run / "run.json", ignored)) {
+  if (same && fs::exists(RunFiles(paths.run).record(), ignored)) {
     if (auto done = resume(paths.run, how, Comm()); done.ok()) return done;
   }
   MORULA_TRY(begin_anew(paths, experiment));

@@ -5,6 +5,7 @@
 
 #include "coupling/tissue_middle.h"
 #include "results/file_io.h"
+#include "results/run_files.h"
 #include "results/snapshot_file.h"
 #include "scenarios/measures/holds.h"
 
@@ -63,7 +64,7 @@ std::vector<std::size_t> Moments::among(const std::vector<double>& times) const 
 
 Result<const SeriesTable*> FinishedRun::series() {
   if (!series_) {
-    MORULA_TRY_ASSIGN(SeriesTable read, read_series(folder_ / "series.csv"));
+    MORULA_TRY_ASSIGN(SeriesTable read, read_series(RunFiles(folder_).series()));
     series_ = std::move(read);
   }
   return &*series_;
@@ -71,7 +72,7 @@ Result<const SeriesTable*> FinishedRun::series() {
 
 Result<const std::vector<EventLine>*> FinishedRun::events() {
   if (!events_) {
-    const fs::path file = folder_ / "events.jsonl";
+    const fs::path file = RunFiles(folder_).events();
     std::string lines;
     if (fs::exists(file)) {  // else nothing has happened
       MORULA_TRY_ASSIGN(lines, read_file(file));
@@ -83,7 +84,7 @@ Result<const std::vector<EventLine>*> FinishedRun::events() {
 
 Result<const std::vector<double>*> FinishedRun::snapshot_times() {
   if (!times_) {
-    MORULA_TRY_ASSIGN(const auto entries, list_snapshots(folder_ / "results.h5"));
+    MORULA_TRY_ASSIGN(const auto entries, list_snapshots(RunFiles(folder_).results()));
     times_.emplace();
     for (const SnapshotEntry& entry : entries) times_->push_back(entry.time);
   }
@@ -93,7 +94,7 @@ Result<const std::vector<double>*> FinishedRun::snapshot_times() {
 Result<std::shared_ptr<const Snapshot>> FinishedRun::snapshot(std::size_t index) {
   for (const auto& [number, one] : kept_)
     if (number == index) return one;
-  MORULA_TRY_ASSIGN(Snapshot read, read_snapshot(folder_ / "results.h5", index));
+  MORULA_TRY_ASSIGN(Snapshot read, read_snapshot(RunFiles(folder_).results(), index));
   bring_together(read, study_.model.space);
   if (kept_.size() == kKept) kept_.pop_front();
   kept_.emplace_back(index, std::make_shared<const Snapshot>(std::move(read)));

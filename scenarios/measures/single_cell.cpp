@@ -2,12 +2,13 @@
 
 #include <numbers>
 
+#include "results/run_files.h"
 #include "results/snapshot_file.h"
 
 namespace morula::scenarios {
 
 Result<std::vector<Snapshot>> all_snapshots(const std::filesystem::path& run) {
-  const auto file = run / "results.h5";
+  const auto file = RunFiles(run).results();
   MORULA_TRY_ASSIGN(const auto entries, list_snapshots(file));
   if (entries.empty()) return Error{ErrorKind::kFile, "'" + file.string() + "' holds no snapshot", ""};
   std::vector<Snapshot> out;

@@ -145,7 +145,7 @@ Status can_go_on(const Study& parent, const Study& study) {
 
 /// Whether the checkpoint is of the study in this folder; `otherwise` if not.
 Status is_of_run(const RunFolder& folder, const Restored& restored, Error otherwise) {
-  MORULA_TRY_ASSIGN(const std::string study_hash, sha256_of_file(folder.path() / "study.resolved.yaml"));
+  MORULA_TRY_ASSIGN(const std::string study_hash, sha256_of_file(folder.resolved_study()));
   return restored.checkpoint.info.study_hash == study_hash ? Status{} : Status(std::move(otherwise));
 }
 
@@ -182,10 +182,9 @@ Result<RunSummary> resume(const std::filesystem::path& run, const ResumeRequest&
   MORULA_TRY_ASSIGN(RunRecord record, read_run_record(folder.record()));
   MORULA_TRY_ASSIGN(auto columns, columns_of(study));
   MORULA_TRY_ASSIGN(Restored restored, restore(folder, request, study, comm));
-  MORULA_TRY(is_of_run(
-      folder, restored,
-      {ErrorKind::kInput, "the checkpoint belongs to another study than '" + (folder.path() / "study.resolved.yaml").string() + "'",
-       "the resolved study of a run must not be changed; start a new run instead"}));
+  MORULA_TRY(is_of_run(folder, restored,
+                       {ErrorKind::kInput, "the checkpoint belongs to another study than '" + folder.resolved_study().string() + "'",
+                        "the resolved study of a run must not be changed; start a new run instead"}));
   MORULA_TRY(agree(comm.is_root() ? check_inputs(folder.path(), record) : Status{}, comm));
   const double time = restored.checkpoint.tissue.clock.time;
   if (asked.until) MORULA_TRY(is_before(time, *asked.until, "--until"));

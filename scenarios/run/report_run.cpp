@@ -13,6 +13,7 @@
 #include "report/run_plots.h"
 #include "results/export.h"
 #include "results/file_io.h"
+#include "results/run_files.h"
 #include "results/run_record.h"
 #include "results/snapshot_file.h"
 #include "scenarios/criteria/judge.h"
@@ -243,14 +244,15 @@ TypeColors type_colors(const Study& study) {
 }
 
 Result<Study> read_run_study(const fs::path& run, std::shared_ptr<const Laws> laws) {
-  auto study = read_study(run / "study.resolved.yaml", {.laws = std::move(laws), .judge_places = false});
+  auto study = read_study(RunFiles(run).resolved_study(), {.laws = std::move(laws), .judge_places = false});
   if (!study.ok()) return study.error().as_error();
   return std::move(study).value();
 }
 
 Result<fs::path> write_run_report(const Study& study, const RunRecord& record, const fs::path& run, const Judgement& judgement) {
-  MORULA_TRY_ASSIGN(const SeriesTable series, read_series(run / "series.csv"));
-  MORULA_TRY(make_folder(run / "plots"));
+  const RunFiles files(run);
+  MORULA_TRY_ASSIGN(const SeriesTable series, read_series(files.series()));
+  MORULA_TRY(make_folder(files.plots()));
   ReportContent content;
   content.title = study.title.empty() ? study.name : study.title;
   content.study = study.name;
@@ -260,13 +262,13 @@ Result<fs::path> write_run_report(const Study& study, const RunRecord& record, c
   content.not_checked = judgement.not_checked;
   MORULA_TRY_ASSIGN(const std::vector<NamedPlot> plots, plots_of(study, run, series));
   for (const NamedPlot& one : plots) {
-    MORULA_TRY(write_curves(one.plot, run / "plots" / one.name));
+    MORULA_TRY(write_curves(one.plot, files.plots() / one.name));
     content.plots.push_back({caption_of(one, series), curves_svg(one.plot, SvgUse::kInline), one.numerics});  // the plot has its title
   }
-  MORULA_TRY_ASSIGN(const auto snapshots, snapshots_over_time(run / "results.h5", content.warnings));
+  MORULA_TRY_ASSIGN(const auto snapshots, snapshots_over_time(files.results(), content.warnings));
   for (const Picture& picture : standard_pictures(snapshots, type_colors(study))) {
     MORULA_TRY_ASSIGN(EncodedPicture one, encoded(picture));
-    MORULA_TRY(write_png(one.png, run / "plots" / (one.name + ".png")));
+    MORULA_TRY(write_png(one.png, files.plots() / (one.name + ".png")));
     content.pictures.push_back(std::move(one));
   }
   if (auto table = interface_table(study, snapshots)) content.tables.push_back(std::move(*table));
@@ -275,14 +277,14 @@ Result<fs::path> write_run_report(const Study& study, const RunRecord& record, c
   add_limit(series, "volume_error", "volume error", study.model.limits.volume_error, "", content);
   add_limit(series, "worst_overlap", "overlap", study.model.limits.overlap, "µm", content);
   add_limit(series, "field_balance", "field balance", study.model.limits.field_balance, "", content);
-  read_events(run / "events.jsonl", content);
+  read_events(files.events(), content);
   add_provenance(record, content);
   content.laws = used_laws(study);
-  content.study_text = text_of(run / "study.yaml");
-  content.parameters_text = text_of(run / "study.resolved.yaml");
+  content.study_text = text_of(files.study());
+  content.parameters_text = text_of(files.resolved_study());
   add_citation(record, content);
-  MORULA_TRY(write_report(content, run / "report.html"));
-  return run / "report.html";
+  MORULA_TRY(write_report(content, files.report()));
+  return files.report();
 }
 
 namespace {
@@ -291,9 +293,9 @@ Result<RunOutputs> make_outputs(const Study& study, const RunRecord& record, con
   RunOutputs out;
   MORULA_TRY_ASSIGN(out.judgement, judge(study, folder.path()));
   MORULA_TRY(folder.write_verdict(out.judgement));
-  MORULA_TRY_ASSIGN(const std::string resolved, read_file(folder.path() / "study.resolved.yaml"));
-  MORULA_TRY(write_file_atomically(folder.path() / "methods.md",
-                                   methods_text(study.title.empty() ? study.name : study.title, used_laws(study), resolved)));
+  MORULA_TRY_ASSIGN(const std::string resolved, read_file(folder.resolved_study()));
+  MORULA_TRY(
+      write_file_atomically(folder.methods(), methods_text(study.title.empty() ? study.name : study.title, used_laws(study), resolved)));
   if (std::find(study.output.formats.begin(), study.output.formats.end(), "vtk") != study.output.formats.end()) {
     auto exported = export_snapshots(folder.results(), folder.vtk(), ExportFormat::kVtk, {});
     if (!exported.ok()) return std::move(exported).error();
@@ -316,7 +318,7 @@ Result<RunOutputs> finish_outputs(const Study& study, const RunRecord& record, c
 }
 
 Result<fs::path> plot_run(const fs::path& run, std::shared_ptr<const Laws> laws) {
-  MORULA_TRY_ASSIGN(const RunRecord record, read_run_record(run / "run.json"));
+  MORULA_TRY_ASSIGN(const RunRecord record, read_run_record(RunFiles(run).record()));
   MORULA_TRY_ASSIGN(const Study study, read_run_study(run, std::move(laws)));
   MORULA_TRY_ASSIGN(const Judgement judgement, judge(study, run));
   return write_run_report(study, record, run, judgement);

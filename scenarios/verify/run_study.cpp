@@ -7,6 +7,7 @@
 
 #include "core/numbers/number_text.h"
 #include "results/file_io.h"
+#include "results/run_files.h"
 #include "scenarios/measures/single_cell.h"
 #include "scenarios/run/driver.h"
 #include "study/study.h"
@@ -18,9 +19,9 @@ namespace fs = std::filesystem;
 
 FoundInRun found_in(const fs::path& run) {
   auto moments = all_snapshots(run);
-  auto series = read_series(run / "series.csv");
-  auto events = read_file(run / "events.jsonl");
-  auto lives = read_lineage(run / "results.h5", run / "events.jsonl");
+  auto series = read_series(RunFiles(run).series());
+  auto events = read_file(RunFiles(run).events());
+  auto lives = read_lineage(RunFiles(run).results(), RunFiles(run).events());
   if (!moments.ok() || !series.ok() || !events.ok() || !lives.ok()) return {};
   return {std::move(*moments), std::move(*series), events_of_lines(*events), std::move(*lives)};
 }
