@@ -177,7 +177,11 @@ TEST(MendedLists, OutliveFastSistersInASwellingBall) {
         cell.row.order = curve_place(center);
         cell.sphere = SphereRecord{center, std::cbrt(0.75 / std::numbers::pi * cell.row.target_volume), {}, {}};
       }
-  Both both(model, 2, tissue_of(model, std::move(cells)));
+  const Tissue ball = tissue_of(model, std::move(cells));
+  Both on_threads(model, 2, ball);
+  on_threads.steps(20);
+  EXPECT_GE(on_threads.events[EventKind::kDivision], 3);
+  Both both(model, 1, ball);
   both.steps(120);
   EXPECT_GE(both.events[EventKind::kDivision], 20);
   EXPECT_GT(both.after_events, 15);

@@ -83,7 +83,7 @@ TEST_F(Checkpoint, NoticesAnAlteredByteAnywhere) {
   const std::string good = slurp(path);
   std::mt19937_64 engine(11);
   int refused = 0;
-  const int wanted = tries(300, comm);
+  const int wanted = tries(150, comm);
   for (int i = 0; i < wanted; ++i) {
     std::string bad = good;
     const std::size_t place = engine() % bad.size();

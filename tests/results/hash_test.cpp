@@ -85,7 +85,7 @@ Tissue turned_around(const Tissue& from) {
 }
 
 TEST(StateHash, DoesNotDependOnOrderOrRank) {
-  const Comm comm;
+  const Comm comm(MPI_COMM_WORLD);
   ShapeLibrary library;
   const Tissue tissue = make_tissue(comm, library);
   const Hash128 hash = state_hash(tissue, comm);
@@ -166,7 +166,7 @@ TEST(StateHash, IgnoresPadding) {
 }
 
 TEST(Parcels, AreSortedOverRanksWithoutLoss) {
-  const Comm comm;
+  const Comm comm(MPI_COMM_WORLD);
   Parcels local;
   std::mt19937_64 engine(7 + static_cast<unsigned>(comm.rank()));
   const int mine = 50 * (comm.rank() + 1);

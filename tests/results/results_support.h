@@ -175,7 +175,7 @@ inline const CheckpointInfo kInfo{"spheroid-0001", "abcdef", 12.5, ""};
 
 /// A test that writes and reads checkpoints of the test tissue.
 struct CheckpointTest : ::testing::Test {
-  Comm comm;
+  Comm comm{MPI_COMM_WORLD};
   ShapeLibrary library;
   Folder folder{comm};
   Model model = model_of_test_tissue();

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 using ::testing::Test;
 
 struct RunFolders : Test {
-  Comm comm;
+  Comm comm{MPI_COMM_WORLD};
   Folder folder{comm};
   RunFolder make() {
     auto made = RunFolder::create(folder / "runs", {}, "spheroid", comm);

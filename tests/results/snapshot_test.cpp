@@ -77,7 +77,7 @@ std::string description(const Snapshot& s) {
 }
 
 struct Snapshots : ::testing::Test {
-  Comm comm;
+  Comm comm{MPI_COMM_WORLD};
   Comm alone{MPI_COMM_SELF};
   ShapeLibrary library;
   Folder folder{comm};
@@ -187,7 +187,7 @@ TEST_F(Snapshots, NoAlteredByteIsReadAsIfItWereWhole) {
   const std::string first = description(*read_snapshot(path, 0)), second = description(*read_snapshot(path, 1));
   std::mt19937_64 random(1);
   int noticed = 0;
-  for (int i = 0; i < 500; ++i) {
+  for (int i = 0; i < 200; ++i) {
     std::string bytes = whole;
     char& byte = bytes[random() % bytes.size()];
     byte = static_cast<char>(byte ^ (1 << random() % 8));
@@ -202,7 +202,7 @@ TEST_F(Snapshots, NoAlteredByteIsReadAsIfItWereWhole) {
       }
     }
   }
-  EXPECT_GT(noticed, 100) << "most bytes are read";
+  EXPECT_GT(noticed, 40) << "most bytes are read";
 }
 
 TEST_F(Snapshots, AreSetAsideWithTheirJournalUnderANameOfTheirOwn) {

@@ -34,7 +34,7 @@ geometry:
 initial:
   - {type: cell, at: [[-20 um, 0 um, 0 um], [20 um, 0 um, 0 um]], as: shell}
   - {type: ball, at: [[0 um, 20 um, 0 um]], as: sphere}
-output: {series: [cell_count], report: true}
+output: {series: [cell_count], report: REPORT}
 criteria:
 CRITERIA
 plots:
@@ -48,13 +48,14 @@ plots:
 
 class OwnCriteria : public testing::Test {
  protected:
-  /// Runs the study once; false where it does not run.
-  bool runs(const std::string& criteria) {
+  /// Runs the study once, with a report or without; false where it does not run.
+  bool runs(const std::string& criteria, bool report = false) {
     folder_.write("count.csv", "time [min],cells\n0,3\n4,3\n");
     folder_.write("way.csv", "way [um],half_more [um]\n0,0.5\n2,2.5\n3,\n9,1\n");
     ReadOptions options;
     options.check_criteria = &check_criteria;
-    auto study = test::read(test::changed("CRITERIA", criteria, kApart), options, folder_.path());
+    auto study = test::read(test::changed("REPORT", report ? "true" : "false", test::changed("CRITERIA", criteria, kApart)), options,
+                            folder_.path());
     EXPECT_TRUE(study.ok()) << study.error().text();
     if (!study.ok()) return false;
     study_ = std::move(study).value();
@@ -218,7 +219,7 @@ TEST_F(OwnCriteria, AreHeldAgainstWhatIsMadeInTheSameWay) {
 }
 
 TEST_F(OwnCriteria, PlotsStandInTheReportAndBesideIt) {
-  ASSERT_TRUE(runs("  - {id: PASS, measure: cell_count, above: 3}"));
+  ASSERT_TRUE(runs("  - {id: PASS, measure: cell_count, above: 3}", true));
   EXPECT_TRUE(passed_);
   const auto plots = declared_plots(study_, folder_.path() / "run");
   ASSERT_TRUE(plots.ok()) << plots.error().message;

@@ -166,11 +166,12 @@ TEST(LibraryStudies, HybridSpheroidRunsShortened) {
   EXPECT_NE(find(*run, "mean step"), nullptr);
 }
 
-/// Cells near the needle are shells from the moment it comes near, and bear it.
+/// Cells near the needle are shells from the moment it comes near, and bear it; in a box that is three quarters as wide.
 TEST(LibraryStudies, HybridHotspotRunsShortened) {
   const auto run = NewStudy("hybrid_hotspot")
                        .run({"time.end=46 min", "time.checkpoint=46 min", "criteria.1.from=40 min", "criteria.1.until=46 min",
-                             "criteria.3.at=46 min", "criteria.4.from=42 min", "criteria.4.until=46 min"});
+                             "criteria.3.at=46 min", "criteria.4.from=42 min", "criteria.4.until=46 min",
+                             "domain.size=[48 um, 48 um, 140 um]", "initial.0.count=264", "initial.0.size=[48 um, 48 um, 74 um]"});
   expect_sound(run);
   ASSERT_TRUE(run.ok());
   for (const char* text : {"nearest sphere", "force on the resting needle"}) {

@@ -40,7 +40,12 @@ class OwnParts : public ::testing::Test {
   /// To `until`, then on to the end.
   RunSummary run_split(const std::string& text, const std::string& name, double until) {
     run_whole(text, name, 1, until);
+    return go_on(name);
+  }
+  /// A run that was broken off, to `until` or its end.
+  RunSummary go_on(const std::string& name, std::optional<double> until = {}) {
     ResumeRequest request;
+    request.until = until;
     request.laws = laws_;
     auto done = resume(folder_.path() / name, request, Comm());
     EXPECT_TRUE(done.ok()) << done.error().message;

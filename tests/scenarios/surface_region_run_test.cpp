@@ -26,7 +26,7 @@ study: ball
 time: {end: 10 min, output: 5 min}
 domain: {size: [120 um, 120 um, 120 um]}
 cell_types:
-  cell: {radius: 4 um}
+  cell: {radius: 4 um, dcm: {nodes: 42}}
 )" + more + "initial:\n  - {type: cell, at: [";
   for (std::size_t k = 0; k < places.size(); ++k) text += (k > 0 ? ", " : "") + test::place_text(places[k]);
   return text + "]}\ncoupling:\n  hold: 1 min\n  regions: " + regions + "\noutput: {report: false}\n";

@@ -1,40 +1,12 @@
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
-#include <csignal>
-
-#include "tests/system/morula_command.h"
-#include "tests/system/studies.h"
+#include "tests/system/calibrate_on_ranks.h"
 
 namespace morula::test {
 namespace {
 
-constexpr std::chrono::seconds kLong(800);
-
-/// Bytes of what one command finds are the same on two ranks, and on one that was killed in its second experiment and called again with two threads.
-TEST(CalibrateOnRanks, WritesTheSameFileOnRanksAndThreadsAndAfterASigkill) {
-  const TestFolder folder;
-  folder.write("study.yaml", calibrated_study());
-  const auto command = [](const char* out, const char* threads = "1") {
-    return std::vector<std::string>{"calibrate", "jkr", "small", "study.yaml", "--budget", "5 s", "--threads", threads, "--out", out};
-  };
-  const Outcome whole = run_morula(command("whole"), folder.path(), {.ranks = 2, .timeout = kLong});
-  ASSERT_EQ(whole.exit_code, 0) << whole.all();
-  const std::string found = read_text(folder / "whole/small.jkr.yaml");
-  ASSERT_THAT(found, testing::HasSubstr("young:"));
-  {
-    RunningCommand running(command("killed"), folder.path());
-    ASSERT_TRUE(running.wait_for(folder / "killed/equal_pair_2/run/results.h5"));
-    running.send(SIGKILL);
-    const Outcome killed = running.wait();
-    EXPECT_EQ(killed.exit_code, 137) << killed.all();
-  }
-  EXPECT_FALSE(std::filesystem::exists(folder / "killed/small.jkr.yaml"));
-  const Outcome again = run_morula(command("killed", "2"), folder.path(), {.timeout = kLong});
-  ASSERT_EQ(again.exit_code, 0) << again.all();
-  EXPECT_EQ(read_text(folder / "killed/small.jkr.yaml"), found);
-}
+/// Two pairs at two rates. With a packing, too: calibrate_slow_test.cpp.
+TEST(CalibrateOnRanks, WritesTheSameFileOnRanksAndThreadsAndAfterASigkill) { expect_same_file_on_ranks("2 s"); }
 
 }  // namespace
 }  // namespace morula::test

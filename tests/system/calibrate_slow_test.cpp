@@ -1,9 +1,10 @@
-// A whole calibration of shells with default parameters.
+// A whole calibration of shells with default parameters, and one with a packing on ranks.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
 
+#include "tests/system/calibrate_on_ranks.h"
 #include "tests/system/found_law.h"
 #include "tests/system/morula_command.h"
 #include "tests/system/studies.h"
@@ -24,6 +25,9 @@ TEST(WholeCalibration, FindsALawOfShellsAndWritesAReport) {
   EXPECT_THAT(read_text(folder.path() / "found" / "report.html"), HasSubstr("that two plates press flat"));
   EXPECT_THAT(read_text(folder.path() / "found" / "small.jkr.yaml"), HasSubstr("along the contact"));
 }
+
+/// With a packing, in which spheres come to rest for the fit.
+TEST(CalibrateWithAPackingOnRanks, WritesTheSameFileOnRanksAndThreadsAndAfterASigkill) { expect_same_file_on_ranks("5 s"); }
 
 }  // namespace
 }  // namespace morula::test

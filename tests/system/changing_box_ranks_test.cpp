@@ -10,11 +10,11 @@ namespace {
 constexpr const char* kStudy = R"(schema: 1
 study: box
 seed: 5
-time: {end: 30 min, output: 5 min, checkpoint: 5 min}
+time: {end: 15 min, output: 5 min, checkpoint: 5 min}
 domain:
   size: [35 um, 35 um, 35 um]
   boundary: periodic
-  course: [{time: 5 min, volume: 1}, {time: 18 min, volume: 0.7}, {time: 24 min, volume: 0.7}, {time: 30 min, volume: 0.8}]
+  course: [{time: 4 min, volume: 1}, {time: 10 min, volume: 0.8}, {time: 11 min, volume: 0.8}, {time: 15 min, volume: 0.9}]
 cell_types:
   cell:
     radius: {mean: 5 um, spread: 5 %}
@@ -34,7 +34,7 @@ output: {report: false}
 // One test: the reference is run once.
 TEST(ChangingBox, GivesTheSameBitsOnThreadsAndRanksAndOverARestartInItsCourse) {
   const TestFolder folder;
-  const auto reference = expect_same_bits_everywhere(folder, kStudy, "10 min");  // where the box is on its way
+  const auto reference = expect_same_bits_everywhere(folder, kStudy, "7 min");  // where the box is on its way
   EXPECT_GT(reference["shells"].get<int>(), 5);
   EXPECT_GT(reference["spheres"].get<int>(), 5);
   EXPECT_GT(reference["cells"].get<int>(), 24) << "and divisions";
