@@ -13,8 +13,8 @@
 namespace morula::scenarios {
 namespace {
 
-constexpr double kRest =
-    1e-7;  // range of the energy over its size, below which a tissue is at rest and what is left are the tolerances of the steps
+/// Range of the energy over its size, below which a tissue is at rest and what is left are the tolerances of the steps.
+constexpr double kRest = 1e-7;
 
 /// Largest value of a column; kNothing, which passes no limit, without a row or where a value is no number.
 double largest(const SeriesColumn* column) {

@@ -85,7 +85,7 @@ TEST(UsersStudy, IsJudgedOnItsOwnCriteriaAndSaysSoByItsExitCode) {
   EXPECT_EQ(failed.exit_code, 5) << failed.all();
   EXPECT_THAT(failed.err, HasSubstr("check MINE failed"));
   EXPECT_EQ(json::parse(read_text(folder / "bad/run.json"))["exit_code"], 5);
-  const Outcome nothing = run({"--out", "nothing", "criteria.0={id: MINE, measure: cap.angle(round), below: 90 deg}"});
+  const Outcome nothing = run({"--out", "nothing", "criteria.0={id: MINE, measure: shortest_hold, below: 1 h}"});
   EXPECT_EQ(nothing.exit_code, 5) << nothing.all();
   const Outcome wrong = run_morula({"check", "study.yaml", "criteria.0.measure=cell_conut"}, folder.path());
   EXPECT_EQ(wrong.exit_code, 2);
