@@ -139,7 +139,7 @@ void add_neighbours_of_a_promotion(std::vector<ReferenceNumber>& out) {
 
 /// 32 cells that fill a periodic box whose volume goes to and fro, so that their pressure does between two values [Pa] every 20 steps of half a
 /// minute. Above 200 Pa they become shells, below 140 Pa spheres: a shell alone among balls of a lattice grows into the corners that these leave, and bears a fifth
-/// less than they do.
+/// less than they do. Where many exchange their bodies while the box shrinks, some are left as deep in a neighbour as a new shell may be, 0.5 µm.
 std::shared_ptr<StudyToRun> at_the_threshold(const std::string& name, double low, double high, double steps) {
   constexpr double kBulk = 2500.0, kStep = 30.0, kBegin = 1800.0;  // K_V [Pa], [s], [s]
   const double size = 2.0 * std::cbrt(4.0 * ball_volume(6.0));
@@ -154,7 +154,7 @@ std::shared_ptr<StudyToRun> at_the_threshold(const std::string& name, double low
                 ", " + edge + "]\n  boundary: periodic\n  course: [" + course +
                 "]\ncell_types: {cell: {radius: 6 um, adhesion: {cell: 0 J/m^2}}}\ninitial:\n  - {type: cell, as: sphere, at: [" +
                 list_of_places(close_packed_block({0, 0, 0}, {2, 2, 2}, {2, 2, 2}, 0.5 * size)) +
-                "]}\ncoupling: {triggers: [{promote: pressure > 200 Pa, demote: pressure < 140 Pa}]}\n");
+                "]}\ncoupling: {triggers: [{promote: pressure > 200 Pa, demote: pressure < 140 Pa}]}\nlimits: {overlap: 0.5 um}\n");
 }
 
 /// Exchanges of the cell that has the most; not a number where not all 32 are there to the end.
