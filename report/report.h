@@ -88,8 +88,7 @@ struct ReportContent {
 
 /// The report as one self-contained HTML page (well-formed XML as well): pictures as base64, curves inline, nothing fetched; the only
 /// script is that of the slider over the frames. Criteria of a library study are its verdict, those of a user's study numerical checks.
-/// Follows the reader's light or dark setting, and prints all frames. All text is escaped; the SVG of plots is taken as it is. Error: a
-/// picture could not be encoded.
+/// Follows the reader's light or dark setting, and prints all frames. All text is escaped; the SVG of plots is taken as it is.
 std::string report_html(const ReportContent& content);
 
 /// report_html to a file, which is replaced only when all is written.

@@ -1,6 +1,5 @@
 // Rules of exchange, death and migration that nobody ever meets.
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "coupling/regions/region.h"
@@ -57,16 +56,14 @@ Levels levels_of(const fields::FieldSpec& field, const Space& space) {
 void check_level(BuildContext& c, const Place& place, const std::string& rule, std::size_t field, double level, bool above) {
   const fields::FieldSpec& of = c.study.model.fields[field];
   const Levels has = levels_of(of, c.study.model.space);
-  if (above ? level >= has.most : level <= has.least)
-    tell(c, place,
-         "nobody ever meets " + rule + ": '" + of.name + (above ? "' never rises above " : "' never falls below ") +
-             UnitSystem().format_value(above ? has.most : has.least, Quantity::kConcentration),
-         "see its `initial` and `boundary`, and what takes it up or makes it");
-  if (above ? level < has.least : level > has.most)
-    tell(c, place,
-         "everybody meets " + rule + ": '" + of.name + (above ? "' never falls below " : "' never rises above ") +
-             UnitSystem().format_value(above ? has.least : has.most, Quantity::kConcentration),
-         "see its `initial` and `boundary`, and what takes it up or makes it");
+  const bool nobody = above ? level >= has.most : level <= has.least, everybody = above ? level < has.least : level > has.most;
+  if (!nobody && !everybody) return;
+  const bool rises = nobody == above;  // to an end that is told; else it falls
+  tell(c, place,
+       (nobody ? "nobody ever meets " : "everybody meets ") + rule + ": '" + of.name +
+           (rises ? "' never rises above " : "' never falls below ") +
+           UnitSystem().format_value(rises ? has.most : has.least, Quantity::kConcentration),
+       "see its `initial` and `boundary`, and what takes it up or makes it");
 }
 
 void check_levels(BuildContext& c) {

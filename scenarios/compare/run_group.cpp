@@ -23,8 +23,8 @@ Result<ComparedRun> read_run(const std::string& given) {
   MORULA_TRY_ASSIGN(run.series, read_series(folder.series()));
   if (run.series.rows() == 0 || run.series.find("time") == nullptr)
     return wrong("series.csv of '" + given + "' has no rows: there is nothing to compare", "wait for the first output of the run");
-  MORULA_TRY_ASSIGN(const std::string resolved, read_file(RunFiles(run.path).resolved_study()));
-  MORULA_TRY_ASSIGN(run.settings, settings_of(resolved, RunFiles(run.path).resolved_study().string()));
+  MORULA_TRY_ASSIGN(const std::string resolved, read_file(folder.resolved_study()));
+  MORULA_TRY_ASSIGN(run.settings, settings_of(resolved, folder.resolved_study().string()));
   return run;
 }
 

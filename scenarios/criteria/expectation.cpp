@@ -72,17 +72,15 @@ bool find_theory_of(const Study& study, const Given<std::string>& name, const st
                         "it predicts " + out.theory->predictions());
       return false;
     }
-    for (const Subject& subject : call->subjects)
+    for (const Subject& subject : call->subjects) {
+      const std::string here = subject.text.empty() ? "" : " (here: " + subject.text + ")";
       if (const Status fits = out.theory->fits(study, subject, call->measure.name); !fits.ok()) {
-        diagnostics.error(413, name.place,
-                          "'" + name.value + "' " + fits.error().message + (subject.text.empty() ? "" : " (here: " + subject.text + ")"),
-                          fits.error().help);
+        diagnostics.error(413, name.place, "'" + name.value + "' " + fits.error().message + here, fits.error().help);
         return false;
       }
-    for (const Subject& subject : call->subjects)
-      if (const std::string doubt = out.theory->doubt ? out.theory->doubt(study, subject) : std::string(); !doubt.empty())
-        diagnostics.warning(413, name.place,
-                            "'" + name.value + "' " + doubt + (subject.text.empty() ? "" : " (here: " + subject.text + ")"), "");
+      if (const std::string doubt = out.theory->doubt ? out.theory->doubt(study, subject) : ""; !doubt.empty())
+        diagnostics.warning(413, name.place, "'" + name.value + "' " + doubt + here, "");
+    }
   }
   return true;
 }

@@ -17,14 +17,9 @@ std::string trimmed(std::string_view text) {
   return std::string(text);
 }
 
-bool is_output(const Study& study, double time) {
-  const double outputs = time / study.time.output;
-  return time == study.time.end || (time <= study.time.end && std::abs(outputs - std::round(outputs)) < 1e-6);
-}
-
 /// Whether the run writes anything from one time to another. [s]
 bool has_output(const Study& study, double from, double until) {
-  if (until >= study.time.end) return true;
+  if (until >= study.time.end) return from <= study.time.end;
   constexpr double kRounding = 1e-6;  // of an interval
   return std::ceil(from / study.time.output - kRounding) * study.time.output <= until + kRounding * study.time.output;
 }
@@ -127,7 +122,7 @@ std::optional<AskedMoments> moments_of(const Study& study, const MeasuredMoments
   if (asks_for_holds(at)) return holds_named(study, m, diagnostics);
   const auto time = read_quantity(UnitSystem(), at, Quantity::kTime, "at", "6 h", m.at.place, diagnostics);
   if (!time) return std::nullopt;
-  if (is_output(study, *time)) return AskedMoments{{Moments::Kind::kBetween, *time, *time}};
+  if (has_output(study, *time, *time)) return AskedMoments{{Moments::Kind::kBetween, *time, *time}};
   diagnostics.error(416, m.at.place, "the run writes nothing at " + at, "a multiple of `time.output` up to `time.end`");
   return std::nullopt;
 }

@@ -20,7 +20,8 @@ struct MeasuredCap {
 };
 
 /// The caps of a subject of kContact in a snapshot: one for the two cells of a pair, one for each cell of a type on an obstacle, whose
-/// plane is its top, seen along z. None where there are not exactly two cells, of what is further away than the range of contact, or where no sphere goes through the nodes.
+/// plane is its top, seen along z. None where there are not exactly two
+/// cells, of cells further apart than the range of contact, and where no sphere goes through the nodes.
 std::vector<MeasuredCap> caps_of(const Study& study, const Snapshot& snapshot, const Subject& subject);
 
 }  // namespace morula::scenarios
