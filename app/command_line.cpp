@@ -110,7 +110,7 @@ void add_running_verbs(CLI::App& program, Parsed& p) {
   verb->add_option("--budget", p.calibrate.budget,
                    "Computing time of one core; what there is no time for is left out, what only judges first")
       ->type_name("TIME");
-  verb->add_option("--threads", p.calibrate.threads, "Threads of each rank; ranks share the experiments")
+  verb->add_option("--threads", p.calibrate.threads, "Threads of each rank; all of them share the experiments")
       ->check(CLI::Range(1, 1024))
       ->type_name("N")
       ->capture_default_str();

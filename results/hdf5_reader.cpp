@@ -18,11 +18,19 @@ struct Hdf5Reader::State {
   fs::path path;
   std::unique_ptr<Overlay> overlay;
   Hdf5Handle file;  // goes before the overlay that it reads through
+  // The dataset that was asked for last: HDF5 reads its whole head when it is opened, which takes longer than a small dataset itself.
+  std::string last_path;
+  Hdf5Handle last;
+
+  const Hdf5Handle& dataset(const std::string& wanted) {
+    if (last.ok() && wanted == last_path) return last;
+    last = Hdf5Handle(H5Dopen2(file.get(), wanted.c_str(), H5P_DEFAULT), H5Dclose);
+    last_path = wanted;
+    return last;
+  }
 };
 
 namespace {
-
-Hdf5Handle open_dataset(hid_t file, const std::string& path) { return {H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose}; }
 
 /// Rows and values a row of a dataset; nothing if it is not such a table.
 struct Shape {
@@ -71,7 +79,7 @@ Result<Hdf5Reader> Hdf5Reader::open(const fs::path& path) {
   if (const auto journal = read_journal(path))  // the writer was killed between journal and file: see what it meant
     for (const Overlay::Range& range : journal->ranges) overlay->patch(range);
   Overlay* raw = overlay.get();
-  auto state = std::make_unique<State>(State{path, std::move(overlay), Hdf5Handle(raw->open(false), Overlay::close)});
+  auto state = std::make_unique<State>(State{path, std::move(overlay), Hdf5Handle(raw->open(false), Overlay::close), "", {-1, H5Dclose}});
   Hdf5Reader reader(std::move(state));
   if (!reader.state_->file.ok()) return reader.damaged(hdf5_reason());
   return reader;
@@ -91,26 +99,26 @@ Result<std::uint64_t> Hdf5Reader::links(const std::string& group) const {
 }
 
 Result<std::uint64_t> Hdf5Reader::rows(const std::string& path) const {
-  const Hdf5Handle dataset = open_dataset(state_->file.get(), path);
+  const Hdf5Handle& dataset = state_->dataset(path);
   const auto shape = dataset.ok() ? shape_of(dataset) : std::nullopt;
   if (!shape) return damaged("no dataset '" + path + "'");
   return shape->rows;
 }
 
 Result<std::string> Hdf5Reader::units(const std::string& path) const {
-  const Hdf5Handle dataset = open_dataset(state_->file.get(), path);
+  const Hdf5Handle& dataset = state_->dataset(path);
   if (!dataset.ok()) return damaged("no dataset '" + path + "'");
   return text_attribute(dataset.get(), "units");
 }
 
 Result<std::string> Hdf5Reader::description(const std::string& path) const {
-  const Hdf5Handle dataset = open_dataset(state_->file.get(), path);
+  const Hdf5Handle& dataset = state_->dataset(path);
   if (!dataset.ok()) return damaged("no dataset '" + path + "'");
   return text_attribute(dataset.get(), "description");
 }
 
 Result<std::vector<std::string>> Hdf5Reader::kinds(const std::string& path) const {
-  const Hdf5Handle dataset = open_dataset(state_->file.get(), path);
+  const Hdf5Handle& dataset = state_->dataset(path);
   if (!dataset.ok()) return damaged("no dataset '" + path + "'");
   const Hdf5Handle type(H5Dget_type(dataset.get()), H5Tclose);
   std::vector<std::string> names;
@@ -138,7 +146,7 @@ bool Hdf5Reader::is_group(const std::string& path) const {
 
 Status Hdf5Reader::check_share(const std::string& path, StoredType type, std::uint32_t width, std::uint64_t first,
                                std::uint64_t count) const {
-  const Hdf5Handle dataset = open_dataset(state_->file.get(), path);
+  const Hdf5Handle& dataset = state_->dataset(path);
   const auto shape = dataset.ok() ? shape_of(dataset) : std::nullopt;
   if (!shape) return damaged("no dataset '" + path + "'");
   const Hdf5Handle stored = value_type(dataset), wanted(file_type(type, width), H5Tclose);
@@ -151,7 +159,7 @@ Status Hdf5Reader::read_raw(const std::string& path, StoredType type, std::uint3
                             std::byte* out) const {
   if (count == 0) return {};
   MORULA_TRY(check_share(path, type, width, first, count));
-  const Hdf5Handle dataset = open_dataset(state_->file.get(), path);
+  const Hdf5Handle& dataset = state_->dataset(path);
   const bool wide = type != StoredType::kText && width > 1;
   const hsize_t begin[2] = {first, 0}, size[2] = {count, width};
   const Hdf5Handle file_space(H5Dget_space(dataset.get()), H5Sclose);
@@ -170,7 +178,7 @@ Status Hdf5Reader::read_raw(const std::string& path, StoredType type, std::uint3
 }
 
 Result<std::vector<std::string>> Hdf5Reader::texts(const std::string& path) const {
-  const Hdf5Handle dataset = open_dataset(state_->file.get(), path);
+  const Hdf5Handle& dataset = state_->dataset(path);
   const auto shape = dataset.ok() ? shape_of(dataset) : std::nullopt;
   if (!shape) return damaged("no dataset '" + path + "'");
   std::vector<std::byte> bytes(shape->rows * shape->width);

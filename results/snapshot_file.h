@@ -62,5 +62,7 @@ Result<SnapshotCounts> count_snapshots(const std::filesystem::path& path, double
 
 /// One moment, whole, on this process. kFile for a file of another schema.
 Result<Snapshot> read_snapshot(const std::filesystem::path& path, std::size_t index);
+/// All moments, likewise.
+Result<std::vector<Snapshot>> read_snapshots(const std::filesystem::path& path);
 
 }  // namespace morula::scenarios

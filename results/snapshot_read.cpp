@@ -186,50 +186,7 @@ Status read_fields(const Hdf5Reader& file, const std::string& group, const std::
   return {};
 }
 
-}  // namespace
-
-std::string snapshot_group(std::size_t index) {
-  char name[40];
-  std::snprintf(name, sizeof name, "snapshots/%06zu", index);
-  return name;
-}
-
-Result<std::vector<SnapshotEntry>> list_snapshots(const std::filesystem::path& path) {
-  MORULA_TRY_ASSIGN(const Hdf5Reader file, Hdf5Reader::open(path));
-  MORULA_TRY(check_schema(file, path));
-  std::vector<SnapshotEntry> entries;
-  if (!file.exists("snapshots")) return entries;
-  MORULA_TRY_ASSIGN(const std::uint64_t count, file.links("snapshots"));
-  while (entries.size() < count) {
-    SnapshotEntry entry;
-    entry.index = entries.size();
-    const std::string group = snapshot_group(entry.index);
-    MORULA_TRY_ASSIGN(entry.time, file.value<double>(group + "/time"));
-    MORULA_TRY_ASSIGN(entry.cells, file.rows(group + "/cells/id"));
-    entries.push_back(entry);
-  }
-  return entries;
-}
-
-Result<SnapshotCounts> count_snapshots(const std::filesystem::path& path, double time, bool with_equal) {
-  MORULA_TRY_ASSIGN(const Hdf5Reader file, Hdf5Reader::open(path));
-  MORULA_TRY(check_schema(file, path));
-  SnapshotCounts counts;
-  if (!file.exists("snapshots")) return counts;
-  MORULA_TRY_ASSIGN(counts.all, file.links("snapshots"));
-  for (counts.earlier = counts.all; counts.earlier > 0; --counts.earlier) {
-    MORULA_TRY_ASSIGN(const double last, file.value<double>(snapshot_group(counts.earlier - 1) + "/time"));
-    if (last < time || (with_equal && last == time)) break;
-  }
-  return counts;
-}
-
-Result<Snapshot> read_snapshot(const std::filesystem::path& path, std::size_t index) {
-  MORULA_TRY_ASSIGN(const Hdf5Reader file, Hdf5Reader::open(path));
-  MORULA_TRY(check_schema(file, path));
-  if (!file.exists("snapshots")) return no_such_snapshot(path, index, 0);
-  MORULA_TRY_ASSIGN(const std::uint64_t count, file.links("snapshots"));
-  if (index >= count) return no_such_snapshot(path, index, count);
+Result<Snapshot> read_one(const Hdf5Reader& file, std::size_t index) {
   const std::string group = snapshot_group(index) + '/';
   Snapshot out;
   MORULA_TRY_ASSIGN(out.time, file.value<double>(group + "time"));
@@ -244,6 +201,64 @@ Result<Snapshot> read_snapshot(const std::filesystem::path& path, std::size_t in
   MORULA_TRY(read_nuclei(file, group, out));
   MORULA_TRY(read_surroundings(file, group, out));
   MORULA_TRY(read_fields(file, group, field_names, out));
+  return out;
+}
+
+/// How many there are in a file of this schema.
+Result<std::uint64_t> count_all(const Hdf5Reader& file, const std::filesystem::path& path) {
+  MORULA_TRY(check_schema(file, path));
+  return file.exists("snapshots") ? file.links("snapshots") : Result<std::uint64_t>(std::uint64_t{0});
+}
+
+}  // namespace
+
+std::string snapshot_group(std::size_t index) {
+  char name[40];
+  std::snprintf(name, sizeof name, "snapshots/%06zu", index);
+  return name;
+}
+
+Result<std::vector<SnapshotEntry>> list_snapshots(const std::filesystem::path& path) {
+  MORULA_TRY_ASSIGN(const Hdf5Reader file, Hdf5Reader::open(path));
+  std::vector<SnapshotEntry> entries;
+  MORULA_TRY_ASSIGN(const std::uint64_t count, count_all(file, path));
+  while (entries.size() < count) {
+    SnapshotEntry entry;
+    entry.index = entries.size();
+    const std::string group = snapshot_group(entry.index);
+    MORULA_TRY_ASSIGN(entry.time, file.value<double>(group + "/time"));
+    MORULA_TRY_ASSIGN(entry.cells, file.rows(group + "/cells/id"));
+    entries.push_back(entry);
+  }
+  return entries;
+}
+
+Result<SnapshotCounts> count_snapshots(const std::filesystem::path& path, double time, bool with_equal) {
+  MORULA_TRY_ASSIGN(const Hdf5Reader file, Hdf5Reader::open(path));
+  SnapshotCounts counts;
+  MORULA_TRY_ASSIGN(counts.all, count_all(file, path));
+  for (counts.earlier = counts.all; counts.earlier > 0; --counts.earlier) {
+    MORULA_TRY_ASSIGN(const double last, file.value<double>(snapshot_group(counts.earlier - 1) + "/time"));
+    if (last < time || (with_equal && last == time)) break;
+  }
+  return counts;
+}
+
+Result<Snapshot> read_snapshot(const std::filesystem::path& path, std::size_t index) {
+  MORULA_TRY_ASSIGN(const Hdf5Reader file, Hdf5Reader::open(path));
+  MORULA_TRY_ASSIGN(const std::uint64_t count, count_all(file, path));
+  if (index >= count) return no_such_snapshot(path, index, count);
+  return read_one(file, index);
+}
+
+Result<std::vector<Snapshot>> read_snapshots(const std::filesystem::path& path) {
+  MORULA_TRY_ASSIGN(const Hdf5Reader file, Hdf5Reader::open(path));
+  MORULA_TRY_ASSIGN(const std::uint64_t count, count_all(file, path));
+  std::vector<Snapshot> out;
+  while (out.size() < count) {
+    MORULA_TRY_ASSIGN(Snapshot one, read_one(file, out.size()));
+    out.push_back(std::move(one));
+  }
   return out;
 }
 

@@ -65,6 +65,15 @@ class WorkQueue {
   std::atomic<std::size_t> next_{0};
 };
 
+/// function(k) for 0 <= k < count, each number for whoever has time, the first ones first: for long work of unequal weight, which then makes its own loops on
+/// one thread.
+template <class Function>
+void one_by_one(int threads, std::size_t count, Function&& function) {
+  WorkQueue queue(count, 1);
+  on_each_thread(static_cast<int>(std::min(static_cast<std::size_t>(std::max(threads, 1)), count)),
+                 [&](std::size_t) { queue.work_off(function); });
+}
+
 /// What function(k, out) appends to a std::vector<T> `out` for 0 <= k < count, in the order of k.
 template <class T, class Function>
 std::vector<T> gather(int threads, std::size_t count, Function&& function) {

@@ -129,11 +129,11 @@ Result<FittedAlong> fit_friction_along(const std::vector<PressedCluster>& shells
   const double whole = mean_of(of_shells, 1.0).back();
   if (!(whole > 0.0)) return no_fit("clusters of cells did not resist the plates");
 
+  std::vector<double> factors;
+  for (int k = kLeast; k <= kMost; ++k) factors.push_back(std::exp2(k));
+  MORULA_TRY_ASSIGN(const auto of_factors, spheres(factors));
   std::vector<Works> tried;
-  for (int k = kLeast; k <= kMost; ++k) {
-    MORULA_TRY_ASSIGN(const auto clusters, spheres(std::exp2(k)));
-    tried.push_back(works_of(clusters));
-  }
+  for (const std::vector<PressedCluster>& clusters : of_factors) tried.push_back(works_of(clusters));
   const Loss loss(tried, of_shells, whole, std::clamp(approach, std::exp2(kLeast), std::exp2(kMost)));
   std::size_t best = 0;
   for (std::size_t i = 0; i < loss.size(); ++i)
@@ -148,8 +148,8 @@ Result<FittedAlong> fit_friction_along(const std::vector<PressedCluster>& shells
   out.friction = out.factor * friction;
   out.low = low == 0 ? 0.0 : friction * std::exp2(Loss::exponent(low));
   out.high = high + 1 == loss.size() ? std::numeric_limits<double>::infinity() : friction * std::exp2(Loss::exponent(high));
-  MORULA_TRY_ASSIGN(const auto fitted, spheres(out.factor));
-  const Works of_fitted = works_of(fitted);
+  MORULA_TRY_ASSIGN(const auto fitted, spheres(std::span(&out.factor, 1)));
+  const Works of_fitted = works_of(fitted.front());
   out.misfit = std::sqrt(misfit_of(of_fitted, of_shells, whole).mean);
   for (int k = 0; k < kParts; ++k) out.part.push_back(part_of(k));
   out.shells = mean_of(of_shells, whole), out.fitted = mean_of(of_fitted, whole), out.unfitted = mean_of(tried[-kLeast], whole);

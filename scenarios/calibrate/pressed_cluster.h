@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "core/result.h"
@@ -22,8 +23,8 @@ struct FittedAlong : FittedFriction {
   std::vector<double> shells, fitted, unfitted;  ///< of spheres with the fitted friction and with that of the shells
 };
 
-/// The clusters of the shells, of spheres whose friction along their contacts is this part of that of the shells.
-using ClustersOfSpheres = std::function<Result<std::vector<PressedCluster>>(double factor)>;
+/// The clusters of the shells, of spheres whose friction along their contacts is each of these parts of that of the shells.
+using ClustersOfSpheres = std::function<Result<std::vector<std::vector<PressedCluster>>>(std::span<const double> factors)>;
 
 /// Friction along the contact of two spheres, per contact area, with which they go past each other as shells do: a factor between 1/1024 and 4. What speaks against one is how far the mean
 /// work is from that on the shells, over sixteen parts of the way, beside the scatter of single clusters and what no factor takes away (Student's t), and how far it is from the factor of

@@ -133,11 +133,8 @@ class Fitting {
     return out;
   }
   /// With which spheres of a law that has its friction of approach are pressed flat as shells are.
-  [[nodiscard]] Result<calibrate::FittedAlong> along_of(TrialLaw law) const {
-    const auto spheres = [&](double factor) {
-      law.sphere.along_factor = factor;
-      return clusters_.press(law);
-    };
+  [[nodiscard]] Result<calibrate::FittedAlong> along_of(const TrialLaw& law) const {
+    const auto spheres = [&](std::span<const double> factors) { return clusters_.press(law, factors); };
     return calibrate::fit_friction_along(out_.data.pressed, out_.material.friction.along, law.sphere.approach_factor, spheres);
   }
   /// Gives spheres of the law the friction of approach that their pairs tell, and along their contacts that which was found, or else the same.
@@ -174,13 +171,13 @@ class Fitting {
       along_;  ///< friction along contacts with which spheres come to rest in packings, over that of the study; none: not found yet
 };
 
-Status fit_on_root(const Study& study, Calibration& out) {
+Status fit_on_root(const Study& study, int threads, Calibration& out) {
   MORULA_TRY_ASSIGN(out.data, data_of_runs(out.experiments, out.outcomes));
   if (!out.left_out.empty())
     out.data.remarks.push_back("no time for " + joined(out.left_out) +
                                ": what they would have told is not fitted, intervals are wider, or nothing judges the fit");
-  MORULA_TRY_ASSIGN(const auto places, SpheresInPackings::read(out.material, out.data.packings));
-  MORULA_TRY_ASSIGN(const auto clusters, PressedSpheres::read(out.material, out.data.pressed_seeds));
+  MORULA_TRY_ASSIGN(const auto places, SpheresInPackings::read(out.material, out.data.packings, threads));
+  MORULA_TRY_ASSIGN(const auto clusters, PressedSpheres::read(out.material, out.data.pressed_seeds, threads));
   Fitting fitting(study, places, clusters, out);
   MORULA_TRY(fitting.jkr());
   return fitting.table();
@@ -214,7 +211,7 @@ Result<Calibration> calibrate_jkr(const Study& study, const std::string& type, c
   const auto mixed = std::ranges::find(out.experiments, Experiment::Kind::kMixedPair, &Experiment::kind);
   const auto shells_only = std::span(out.experiments).first(static_cast<std::size_t>(mixed - out.experiments.begin()));
   MORULA_TRY_ASSIGN(out.outcomes, run_experiments(shells_only, request, comm));
-  MORULA_TRY(agree(comm.is_root() ? fit_on_root(study, out) : Status{}, comm));
+  MORULA_TRY(agree(comm.is_root() ? fit_on_root(study, request.threads, out) : Status{}, comm));
   MORULA_TRY(fit_with_shells(out, request, comm));
   return out;
 }

@@ -2,12 +2,15 @@
 
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
+
+#include "core/parallel/threads.h"
 
 namespace morula::scenarios {
 namespace {
 
-Result<calibrate::PressedCluster> press_one(const Experiment& experiment, std::unique_ptr<Simulation> simulation) {
+Result<calibrate::PressedCluster> work_of_plates(const Experiment& experiment, std::unique_ptr<Simulation> simulation) {
   std::vector<double> part, force;
   for (int k = 0; k <= kPressedOutputs; ++k) {
     part.push_back(static_cast<double>(k) / kPressedOutputs);
@@ -22,8 +25,9 @@ Result<calibrate::PressedCluster> press_one(const Experiment& experiment, std::u
 
 }  // namespace
 
-Result<PressedSpheres> PressedSpheres::read(const CellMaterial& material, const std::vector<std::uint32_t>& seeds) {
+Result<PressedSpheres> PressedSpheres::read(const CellMaterial& material, const std::vector<std::uint32_t>& seeds, int threads) {
   PressedSpheres out;
+  out.threads_ = threads;
   out.adhesion_ = material.adhesion;
   for (const std::uint32_t seed : seeds) {
     Experiment experiment = pressed_spheres_experiment(material, seed);
@@ -34,12 +38,22 @@ Result<PressedSpheres> PressedSpheres::read(const CellMaterial& material, const 
   return out;
 }
 
-Result<std::vector<calibrate::PressedCluster>> PressedSpheres::press(const TrialLaw& law) const {
-  std::vector<calibrate::PressedCluster> out;
-  for (const auto& [experiment, study] : clusters_) {
-    MORULA_TRY_ASSIGN(auto spheres, spheres_on_trial(study, law, adhesion_));
-    MORULA_TRY_ASSIGN(auto one, press_one(experiment, std::move(spheres)));
-    out.push_back(std::move(one));
+Result<calibrate::PressedCluster> PressedSpheres::press_one(TrialLaw law, double along_factor, const Cluster& cluster) const {
+  law.sphere.along_factor = along_factor;
+  MORULA_TRY_ASSIGN(auto spheres, spheres_on_trial(cluster.study, law, adhesion_));
+  return work_of_plates(cluster.experiment, std::move(spheres));
+}
+
+Result<std::vector<std::vector<calibrate::PressedCluster>>> PressedSpheres::press(const TrialLaw& law,
+                                                                                  std::span<const double> along_factors) const {
+  const std::size_t clusters = clusters_.size();
+  std::vector<std::optional<Result<calibrate::PressedCluster>>> pressed(along_factors.size() * clusters);
+  one_by_one(threads_, pressed.size(),
+             [&](std::size_t k) { pressed[k] = press_one(law, along_factors[k / clusters], clusters_[k % clusters]); });
+  std::vector<std::vector<calibrate::PressedCluster>> out(along_factors.size());
+  for (std::size_t k = 0; k < pressed.size(); ++k) {
+    MORULA_TRY_ASSIGN(auto one, std::move(*pressed[k]));
+    out[k / clusters].push_back(std::move(one));
   }
   return out;
 }

@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "core/parallel/threads.h"
+
 namespace morula::scenarios {
 namespace {
 
@@ -57,8 +59,9 @@ Result<Rest> rest_of_spheres(std::unique_ptr<Simulation> simulation, double edge
 
 }  // namespace
 
-Result<SpheresInPackings> SpheresInPackings::read(const CellMaterial& material, std::span<const FoundPacking> packings) {
+Result<SpheresInPackings> SpheresInPackings::read(const CellMaterial& material, std::span<const FoundPacking> packings, int threads) {
   SpheresInPackings out;
+  out.threads_ = threads;
   out.adhesion_ = material.adhesion;
   for (const FoundPacking& packing : packings) {
     std::optional<Start>& start = out.starts_.emplace_back();
@@ -70,17 +73,22 @@ Result<SpheresInPackings> SpheresInPackings::read(const CellMaterial& material, 
   return out;
 }
 
+Status SpheresInPackings::place_one(const TrialLaw& law, const Start& start, PackingPoint& point) const {
+  const auto& [study, edge] = start;
+  MORULA_TRY_ASSIGN(auto spheres, spheres_on_trial(study, law, adhesion_));
+  MORULA_TRY_ASSIGN(const Rest rest, rest_of_spheres(std::move(spheres), edge, point.radius, study.time.end));
+  point.random = calibrate::geometry_of_places(rest.centers, edge, point.radius);
+  point.random.contact_area = rest.contact_area;
+  point.random.extra = rest.pressure - pressure_by(law, point);
+  return {};
+}
+
 Status SpheresInPackings::place(const TrialLaw& law, bool held_out, calibrate::Data& data) const {
-  for (std::size_t k = 0; k < starts_.size(); ++k) {
-    PackingPoint& point = data.packings[k];
-    if (!starts_[k] || point.held_out != held_out) continue;
-    const auto& [study, edge] = *starts_[k];
-    MORULA_TRY_ASSIGN(auto spheres, spheres_on_trial(study, law, adhesion_));
-    MORULA_TRY_ASSIGN(const Rest rest, rest_of_spheres(std::move(spheres), edge, point.radius, study.time.end));
-    point.random = calibrate::geometry_of_places(rest.centers, edge, point.radius);
-    point.random.contact_area = rest.contact_area;
-    point.random.extra = rest.pressure - pressure_by(law, point);
-  }
+  std::vector<Status> placed(starts_.size());
+  one_by_one(threads_, starts_.size(), [&](std::size_t k) {
+    if (starts_[k] && data.packings[k].held_out == held_out) placed[k] = place_one(law, *starts_[k], data.packings[k]);
+  });
+  for (Status& one : placed) MORULA_TRY(std::move(one));
   return {};
 }
 

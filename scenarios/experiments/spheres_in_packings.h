@@ -16,8 +16,9 @@ namespace morula::scenarios {
 /// places are found in turns (decision 0056).
 class SpheresInPackings {
  public:
-  /// `packings`: those of Data::packings, in their order; those without centres are no random ones. Errors (kInternal): a study of such spheres is refused.
-  static Result<SpheresInPackings> read(const CellMaterial& material, std::span<const FoundPacking> packings);
+  /// `packings`: those of Data::packings, in their order; those without centres are no random ones. `threads` let packings come to rest side by side.
+  /// Errors (kInternal): a study of such spheres is refused.
+  static Result<SpheresInPackings> read(const CellMaterial& material, std::span<const FoundPacking> packings, int threads);
 
   /// Puts spheres of a law where the shells of the random packings are, those that are held out or those that are not, and lets them come to rest with the friction
   /// of the law, or as far as they do in four times the time in which a pair does (decision 0073). Points get the places, with which the law tells the pressure
@@ -30,6 +31,10 @@ class SpheresInPackings {
     Study study;
     double edge = 0.0;  ///< of the box [µm]
   };
+  /// Of a packing that there is a start for.
+  Status place_one(const TrialLaw& law, const Start& start, calibrate::PackingPoint& point) const;
+
+  int threads_ = 1;
   double adhesion_ = 0.0;                     // of the shells [nN/µm]
   std::vector<std::optional<Start>> starts_;  // of the random packings
 };

@@ -9,13 +9,8 @@ namespace morula::scenarios {
 
 Result<std::vector<Snapshot>> all_snapshots(const std::filesystem::path& run) {
   const auto file = RunFiles(run).results();
-  MORULA_TRY_ASSIGN(const auto entries, list_snapshots(file));
-  if (entries.empty()) return Error{ErrorKind::kFile, "'" + file.string() + "' holds no snapshot", ""};
-  std::vector<Snapshot> out;
-  for (const auto& entry : entries) {
-    MORULA_TRY_ASSIGN(Snapshot snapshot, read_snapshot(file, entry.index));
-    out.push_back(std::move(snapshot));
-  }
+  auto out = read_snapshots(file);
+  if (out.ok() && out->empty()) return Error{ErrorKind::kFile, "'" + file.string() + "' holds no snapshot", ""};
   return out;
 }
 

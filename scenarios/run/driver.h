@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,9 +37,11 @@ struct RunRequest {
   std::filesystem::path out;            ///< exactly this folder instead
   std::string command;                  ///< for run.json
   int threads = 1;
-  std::optional<double> until;                                 ///< rounded up to the next output time; may lie beyond the study's end [s]
-  double max_wall = std::numeric_limits<double>::infinity();   ///< [s]
-  const std::atomic<int>* stop = nullptr;                      ///< a StopWish
+  std::optional<double> until;                                ///< rounded up to the next output time; may lie beyond the study's end [s]
+  double max_wall = std::numeric_limits<double>::infinity();  ///< [s]
+  const std::atomic<int>* stop = nullptr;                     ///< a StopWish
+  /// Of a run beside others of the same process: held by whoever calls, and let go while a step is made. HDF5 knows one thread only.
+  std::unique_lock<std::mutex>* turn = nullptr;
   bool timings = false;                                        ///< write the budget per stage into run.json
   std::vector<std::string> warnings;                           ///< what the caller has to say of this machine; told first
   std::function<void(const std::filesystem::path&)> on_start;  ///< on the root, when the run's folder is there

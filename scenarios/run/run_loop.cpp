@@ -26,6 +26,22 @@ constexpr auto kStatusEvery = std::chrono::seconds(2);
 
 constexpr double kSameTime = 1e-12;  // moments that differ by less than this part of them are one: 3 × 0.7 s is not 2.1 s
 
+/// Lets others of the process have their turn for as long as it lives.
+class OthersTurn {
+ public:
+  explicit OthersTurn(std::unique_lock<std::mutex>* turn) : turn_(turn) {
+    if (turn_ != nullptr) turn_->unlock();
+  }
+  ~OthersTurn() {
+    if (turn_ != nullptr) turn_->lock();
+  }
+  OthersTurn(const OthersTurn&) = delete;
+  OthersTurn& operator=(const OthersTurn&) = delete;
+
+ private:
+  std::unique_lock<std::mutex>* turn_;
+};
+
 /// The first multiple of the interval that is later than `time`.
 double next_multiple(double time, double interval) {
   double k = std::floor(time / interval);
@@ -177,7 +193,11 @@ Status RunLoop::step(double land_on) {
   const Clock& clock = simulation_->tissue().clock;
   const double before = clock.time;
   const auto began = SteadyClock::now();
-  MORULA_TRY_ASSIGN(StepOutcome outcome, simulation_->step(land_on, [this] { return wish_to_stop() != kGoOn; }));
+  auto made = [&] {
+    const OthersTurn others(request_.turn);
+    return simulation_->step(land_on, [this] { return wish_to_stop() != kGoOn; });
+  }();
+  MORULA_TRY_ASSIGN(const StepOutcome outcome, std::move(made));
   interval_.add(outcome);
   ++work_.steps;
   work_.node_steps += load_.nodes;

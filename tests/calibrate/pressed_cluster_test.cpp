@@ -21,8 +21,17 @@ std::vector<PressedCluster> pressed(double factor, std::initializer_list<double>
   }
   return out;
 }
+/// Clusters with each factor.
+template <class Pressed>
+ClustersOfSpheres each(Pressed clusters) {
+  return [clusters](std::span<const double> factors) -> Result<std::vector<std::vector<PressedCluster>>> {
+    std::vector<std::vector<PressedCluster>> out;
+    for (const double factor : factors) out.push_back(clusters(factor));
+    return out;
+  };
+}
 ClustersOfSpheres of_spheres() {
-  return [](double factor) -> Result<std::vector<PressedCluster>> { return pressed(factor); };
+  return each([](double factor) { return pressed(factor); });
 }
 
 TEST(PressedCluster, HasTheWorkOfBothPlates) {
@@ -68,7 +77,7 @@ TEST(FrictionAlong, LeansOnThatOfApproachByWhatClustersLeaveOpen) {
 }
 
 TEST(FrictionAlong, OfOneClusterIsThatOfApproach) {
-  const auto of_one = [](double factor) -> Result<std::vector<PressedCluster>> { return pressed(factor, {1.0}); };
+  const auto of_one = each([](double factor) { return pressed(factor, {1.0}); });
   const auto found = fit_friction_along(pressed(0.1, {1.0}), 50.0, 0.0625, of_one);
   ASSERT_TRUE(found.ok()) << found.error().message;
   EXPECT_DOUBLE_EQ(found->factor, 0.0625);
@@ -78,7 +87,7 @@ TEST(FrictionAlong, OfOneClusterIsThatOfApproach) {
 }
 
 TEST(FrictionAlong, OfSpheresThatAlwaysResistMoreIsLessThanThatOfApproach) {
-  const auto too_stiff = [](double factor) -> Result<std::vector<PressedCluster>> { return pressed(factor + 0.5); };
+  const auto too_stiff = each([](double factor) { return pressed(factor + 0.5); });
   const auto found = fit_friction_along(pressed(0.01), 50.0, 0.1, too_stiff);
   ASSERT_TRUE(found.ok()) << found.error().message;
   EXPECT_LT(found->factor, 0.1);
@@ -100,7 +109,9 @@ TEST(FrictionAlong, TellsWhatCannotBe) {
   EXPECT_THAT(fit_friction_along(pressed(0.1), 0.0, 0.1, of_spheres()).error().message, testing::HasSubstr("without friction"));
   const PressedCluster loose = pressed_cluster({0.0, 1.0}, {0.0, 0.0}, 10.0);
   EXPECT_THAT(fit_friction_along({loose}, 50.0, 0.1, of_spheres()).error().message, testing::HasSubstr("did not resist"));
-  const auto fails = [](double) -> Result<std::vector<PressedCluster>> { return Error{ErrorKind::kPhysics, "spheres fly apart", ""}; };
+  const auto fails = [](std::span<const double>) -> Result<std::vector<std::vector<PressedCluster>>> {
+    return Error{ErrorKind::kPhysics, "spheres fly apart", ""};
+  };
   EXPECT_EQ(fit_friction_along(pressed(0.1), 50.0, 0.1, fails).error().message, "spheres fly apart");
 }
 

@@ -170,13 +170,11 @@ TEST(Experiments, GiveBackTheFrictionAlongTheContactOfSpheres) {
     found.push_back(*one);
   }
   material.shell = "dcm: {nodes: 42}";  // of which read() makes spheres
-  const auto spheres = PressedSpheres::read(material, seeds);
+  const auto spheres = PressedSpheres::read(material, seeds, 2);
   ASSERT_TRUE(spheres.ok()) << spheres.error().message;
   TrialLaw law{.sphere = {.young = 0.8, .poisson = 0.4}, .adhesion = material.adhesion, .pair = {}};
-  const auto fit = calibrate::fit_friction_along(found, material.friction.along, 1.0, [&](double factor) {
-    law.sphere.along_factor = factor;
-    return spheres->press(law);
-  });
+  const auto fit = calibrate::fit_friction_along(found, material.friction.along, 1.0,
+                                                 [&](std::span<const double> factors) { return spheres->press(law, factors); });
   ASSERT_TRUE(fit.ok()) << fit.error().message;
   EXPECT_NEAR(std::log2(fit->factor), -2.0, 0.15);
   EXPECT_LT(fit->misfit, 0.05);

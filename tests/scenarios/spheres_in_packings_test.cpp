@@ -60,7 +60,7 @@ TEST(SpheresInPackings, GiveBackTheCurveOfPacking) {
     packings.push_back(disordered(v, packings.size()));
     data.packings.push_back({.experiment = 1, .arrangement = calibrate::Arrangement::kRandom, .volume_ratio = v, .radius = kRadius});
   }
-  const auto read = SpheresInPackings::read(material, packings);
+  const auto read = SpheresInPackings::read(material, packings, 2);
   ASSERT_TRUE(read.ok()) << read.error().message;
   const SpheresInPackings& places = *read;
   const std::vector<cbm::PackingKnot> knots{{0.08, 0.0}, {0.12, 0.2}, {0.20, 0.4}, {0.32, 0.6}};
@@ -94,7 +94,7 @@ TEST(SpheresInPackings, AreAtRestWhereTheLawSays) {
         {.arrangement = calibrate::Arrangement::kRandom, .volume_ratio = 0.85, .radius = kRadius, .held_out = held_out});
   const std::vector<cbm::PackingKnot> knots{{0.08, 0.0}, {0.12, 0.09}, {0.30, 0.5}};
   const TrialLaw law = law_with(cbm::PackingCurve::through(knots).value());
-  const auto read = SpheresInPackings::read(material, packings);
+  const auto read = SpheresInPackings::read(material, packings, 2);
   ASSERT_TRUE(read.ok()) << read.error().message;
   const SpheresInPackings& places = *read;
   const Status placed = places.place(law, false, data);

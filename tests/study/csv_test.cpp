@@ -77,7 +77,7 @@ TEST(StudyCsv, ALengthWithoutAUnitIsRefused) {
 TEST(StudyCsv, UnitsOfTheEntryHoldForColumnsWithoutOne) {
   const Folder folder;
   folder.write("cells.csv", "x,y,z [um],type\n0.01,0.02,30,hepatocyte\n");
-  const std::string entry = "{type: hepatocyte, count: 400, fill: sphere, radius: 60 um, as: cbm}";
+  const std::string entry = "{type: hepatocyte, count: 60, fill: sphere, radius: 40 um, as: cbm}";
   const auto read_with = [&](const std::string& with) { return read(changed(entry, with), {}, folder.path()); };
   EXPECT_TRUE(read_with("{csv: cells.csv, units: mm}").ok());
   const auto wrong = read_with("{csv: cells.csv, units: kPa}"), none = read_with("{csv: cells.csv}");
@@ -85,7 +85,7 @@ TEST(StudyCsv, UnitsOfTheEntryHoldForColumnsWithoutOne) {
   EXPECT_THAT(wrong.error().text(), HasSubstr("[E203]"));
   EXPECT_THAT(none.error().text(), HasSubstr("column 'x' has no unit [E655]"));
   EXPECT_THAT(none.error().text(), HasSubstr("`units: um` beside `csv` in the study"));
-  ASSERT_FALSE(read(changed("count: 400", "units: um, count: 400")).ok()) << "a key of another source of cells";
+  ASSERT_FALSE(read(changed("count: 60", "units: um, count: 60")).ok()) << "a key of another source of cells";
   folder.write("cells.csv", "x [mm],y [mm],z [um],type\n0.01,0.02,30,hepatocyte\n");
   EXPECT_TRUE(read_with("{csv: cells.csv}").ok());
   const auto idle = read_with("{csv: cells.csv, units: um}");
@@ -123,7 +123,7 @@ TEST(Coincident, AreMovedByTheDistanceInADirectionOfTheirOwnNumber) {
 }
 
 std::string csv_study(const std::string& entry) {
-  return changed("{type: hepatocyte, count: 400, fill: sphere, radius: 60 um, as: cbm}", entry);
+  return changed("{type: hepatocyte, count: 60, fill: sphere, radius: 40 um, as: cbm}", entry);
 }
 
 TEST(StudyCsv, StudyChecksItsCellsAndNamesCoincidentOnes) {

@@ -94,7 +94,7 @@ TEST(ResolvedStudy, NamesTheCopiesOfItsInputFiles) {
   const Folder folder;
   folder.write("data/cells.csv", "x [um],y [um],z [um],type\n1,2,3,hepatocyte\n");
   const auto first =
-      read(changed("{type: hepatocyte, count: 400, fill: sphere, radius: 60 um, as: cbm}", "{csv: data/cells.csv}"), {}, folder.path());
+      read(changed("{type: hepatocyte, count: 60, fill: sphere, radius: 40 um, as: cbm}", "{csv: data/cells.csv}"), {}, folder.path());
   ASSERT_TRUE(first.ok()) << first.error().text();
   EXPECT_THAT(first->resolved_text, HasSubstr("csv: inputs/cells.csv"));
   std::filesystem::create_directories(folder.path() / "run/inputs");

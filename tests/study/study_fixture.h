@@ -34,7 +34,7 @@ cell_types:
 geometry:
   capsule: {sphere: {radius: 150 um}, side: inside, motion: fixed}
 initial:
-  - {type: hepatocyte, count: 400, fill: sphere, radius: 60 um, as: cbm}
+  - {type: hepatocyte, count: 60, fill: sphere, radius: 40 um, as: cbm}
 fields:
   oxygen: {diffusion: 2e-9 m^2/s, initial: 0.2 mM, boundary: {all: 0.2 mM}, uptake: {hepatocyte: 40 amol/s}}
 coupling:
