@@ -41,7 +41,7 @@ class CellView {
   }
 
   /// What its pressure leaves of its volume: a shell's own, of a sphere V exp(−p/K_V), but where its ball follows the water in it [µm³].
-  [[nodiscard]] double pressed_volume() const { return type_->osmosis.acts() ? volume : stressed_volume; }
+  [[nodiscard]] double pressed_volume() const { return row().body == BodyKind::kShell || type_->osmosis.acts() ? volume : stressed_volume; }
   /// Id, type, phase, target volume, pressure averaged over the last minute.
   [[nodiscard]] const CellRow& row() const { return cells_->rows[row_]; }
   [[nodiscard]] const CellType& type() const { return *type_; }

@@ -4,6 +4,7 @@
 
 #include "core/contact/float_rounding.h"
 #include "core/parallel/threads.h"
+#include "coupling/approaching_obstacles.h"
 #include "coupling/behaviours/ask.h"
 #include "coupling/loads/loads.h"
 #include "coupling/lumens.h"
@@ -112,7 +113,11 @@ Simulation::StepPlan Simulation::plan_step(double land_on) const {
   constexpr double kSameTime = 1e-12;  // a corner and an output that differ by rounding are one moment
   const double corner = next_corner(model_, clock.time * (1.0 + kSameTime));
   plan.land_on = corner < land_on * (1.0 - kSameTime) ? corner : land_on;
-  plan.dt = fit_step(std::min({clock.next_step, model_.step.max_step, longest_step_of_box(plan.land_on)}), clock.time, plan.land_on);
+  double wanted = std::min(
+      {clock.next_step, model_.step.max_step, longest_step_of_box(plan.land_on), longest_step_of_forces(model_, clock.time, plan.land_on)});
+  const double until = std::min(clock.time + wanted, plan.land_on);
+  wanted = std::min(wanted, longest_step_of_obstacles(model_, tissue_, mechanics_->obstacles(), until, threads_, comm_));
+  plan.dt = fit_step(wanted, clock.time, plan.land_on);
   const double end = end_of_step(plan.dt, clock.time, plan.land_on);
   for (std::size_t f = 0; f < tissue_.fields.size(); ++f)
     if (end == plan.land_on || fields::is_due(tissue_.fields[f], end)) plan.due_fields.push_back(f);

@@ -131,15 +131,18 @@ void check_jkr_range(BuildContext& c) {
     if (!(most.radius_ratio > cbm::kJkrRange)) continue;
     const auto& [name, place, t] = c.draft.cell_types[i];
     const auto percent = [](double part) { return short_number(std::round(100.0 * part)) + " %"; };
-    const double softest = std::min(model.types[i].sphere.young, model.types[worst].sphere.young);
-    const double needed = softest * std::pow(most.radius_ratio / cbm::kJkrAsked, 3);
+    const cbm::SphereParameters &one = model.types[i].sphere, &other = model.types[worst].sphere;
+    const double give = 1.0 - one.poisson * one.poisson, other_give = 1.0 - other.poisson * other.poisson;
+    const double alike =
+        (give + other_give) / (give / one.young + other_give / other.young);  // E of two types alike that give way as these do
+    const double needed = alike * std::pow(most.radius_ratio / cbm::kJkrAsked, 3);
     c.diagnostics.warning(
         647, t.sphere_young.given ? t.sphere_young.place : place,
         "spheres of '" + name + "' and '" + model.types[worst].name + "' adhere beyond the range of JKR: at rest the contact radius is " +
             short_number(std::round(100.0 * most.radius_ratio) / 100.0) + " R (JKR asks for about 0.4), the overlap " +
             percent(most.overlap_ratio) + " of the distance, and twelve contacts would cover " + percent(most.covered) + " of the surface",
-        "`cbm.young` of " + short_number(std::ceil(needed * 10.0) / 10.0) + " kPa, or adhesion weaker by " +
-            short_number(std::ceil(10.0 * std::pow(most.radius_ratio / cbm::kJkrAsked, 3)) / 10.0) + " times");
+        "`cbm.young` of " + short_number(std::ceil(needed * 10.0) / 10.0) + " kPa" + (worst == i ? "" : " for both") +
+            ", or adhesion weaker by " + short_number(std::ceil(10.0 * std::pow(most.radius_ratio / cbm::kJkrAsked, 3)) / 10.0) + " times");
   }
 }
 

@@ -47,7 +47,7 @@ void declare_load(Section& s, draft::Load& load) {
   s.list(
       {.name = "course",
        .doc = "The load over time: straight lines between these points, constant before the first and after the last. Without it: the full "
-              "load from time 0 on. Steps land on the points.",
+              "load from time 0 on. Steps land on the points, and a force on whole cells changes by a fortieth in one of them at most.",
        .example = "[{time: 0 s, factor: 0}, {time: 1 s, factor: 1}]"},
       load.course, &declare_course_point);
 }

@@ -53,10 +53,11 @@ struct ContactGradient {
 
 /// How one surface touches a sphere.
 struct SphereTouch {
-  std::uint32_t sphere = 0;  ///< body
-  Vec3d place;               ///< middle of the contact, from the sphere's centre [µm]
-  Vec3d force;               ///< on the sphere [nN]
-  double area = 0.0;         ///< of the surface in contact [µm²]
+  std::uint32_t sphere = 0, surface = 0;  ///< bodies
+  Vec3d place;                            ///< middle of the contact, halfway between both surfaces, from the sphere's centre [µm]
+  Vec3d force;                            ///< on the sphere [nN]
+  double area = 0.0;                      ///< of the surface in contact [µm²]
+  double bulge = 0.0;                     ///< what the surface would hold more if its contact were flat there [µm³]
 };
 
 /// By body, ghosts too, how it differs from its material; empty: it does not.

@@ -299,11 +299,13 @@ void fill(const PointsEvaluation& e, const PointsAgainstBody& lists, const Conta
 }
 
 /// Add one point's share to SurfacePair::within. An energy of attraction E in proportion to the area with the normal m is a tension, of the virial
-/// −E (I − m ⊗ m); a force along n over the gap g between two surfaces has the virial −g f n ⊗ n, half on either side.
+/// −E (I − m ⊗ m); a force along n over the gap g between two surfaces has the virial −g f n ⊗ n, half on either side. That of a sphere is found for
+/// the whole pair (ContactLayer::evaluate_pair).
 void add_within(const PointsEvaluation& e, int d, const Batch& batch, int lane, SurfacePair& pair) {
+  if (e.target_moves && e.target.topology == nullptr) return;
   const double tension = batch.tension[lane];
   if (tension != 0.0) pair.within[d] += to_float(outer(tension, get(batch.source_normal, lane)) + isotropic(-tension));
-  if (!e.target_moves || e.target.topology == nullptr) return;
+  if (!e.target_moves) return;
   const Vec3d n = get(batch.normal, lane);
   const SymMat3<float> of_gap = to_float(outer(-0.5 * batch.gap[lane] * dot(get(batch.pull, lane), n), n));
   for (SymMat3<float>& side : pair.within) side += of_gap;

@@ -116,7 +116,8 @@ struct SurfacePair {
   /// away (doublets of 162 nodes: time_stepping.md §12.3). [µm²]
   double area = 0.0;
   /// Of the virial Σ x ⊗ f of this pair's forces on a and on b, what neither body bears for the other: the tension that adhesion takes from the
-  /// surface, and between two surfaces half of forces times gaps. Less these, both virials sum to that of one force from centre to centre [nN·µm].
+  /// surface, and between two surfaces half of forces times gaps. Less these, both virials sum to that of one force from centre to centre. Of a surface and a
+  /// sphere it is the whole virial on the surface about the sphere's centre: one force in the middle of the contact stands for it (SphereTouch) [nN·µm].
   SymMat3<float> within[2];
   Vec3d push;                 ///< force on the obstacle or the sphere of the pair [nN]
   double step_overlap = 0.0;  ///< `overlap` at the start of the step [µm]

@@ -59,6 +59,17 @@ void add_surface_loads(const Model& model, const Tissue& tissue, double time, Lo
   }
 }
 
+double longest_step_of_forces(const Model& model, double time, double until) {
+  constexpr double kChange = 0.025;
+  double out = kNever;
+  for (const CellLoad& load : model.loads) {
+    if (load.what->push_cell == nullptr) continue;
+    const double now = load.course.at(time), then = load.course.at(until);
+    if (now != then) out = std::min(out, kChange * std::max(std::abs(now), std::abs(then)) / std::abs(then - now) * (until - time));
+  }
+  return out;
+}
+
 double next_corner(const Model& model, double time) {
   double next = model.box_volume.next_point(time);
   for (const fields::FieldSpec& field : model.fields) next = std::min(next, field.course.next_point(time));

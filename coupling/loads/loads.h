@@ -41,4 +41,8 @@ void add_surface_loads(const Model& model, const Tissue& tissue, double time, Lo
 /// The first corner of the course of the box, of any load, obstacle, region of tension or cavity after a time [s]; infinity when none is left.
 double next_corner(const Model& model, double time);
 
+/// Longest step [s] in which no force on whole cells changes by more than a fortieth of the larger of its values now and `until` [s], which is no later than the
+/// next corner of any course; infinity where none changes. A step has the force of its end, and a free cell goes that much too far in a ramp.
+double longest_step_of_forces(const Model& model, double time, double until);
+
 }  // namespace morula

@@ -30,7 +30,7 @@ std::vector<Vec3d> load_forces(const Model& model, const Tissue& tissue, const C
 }
 
 /// What contacts have of the virial of a shell's nodes though no neighbour bears it (SurfacePair::within), by owned shell [nN·µm].
-std::vector<SymMat3<double>> virials_within_contacts(const Workspace& work) {
+std::vector<SymMat3<double>> virials_within_contacts(const Workspace& work, std::span<const SphereTouch> touches) {
   const Scene& scene = work.scene;
   std::vector<SymMat3<double>> out(scene.owned_shells());
   const auto add = [&](std::uint32_t body, const SymMat3<float>& m) {
@@ -40,13 +40,26 @@ std::vector<SymMat3<double>> virials_within_contacts(const Workspace& work) {
     add(pair.a, pair.within[0]);
     if (!pair.rigid) add(pair.b, pair.within[1]);
   }
+  for (const SphereTouch& touch : touches)  // a sphere bears the surface in one place
+    if (touch.surface < out.size()) out[touch.surface] += symmetric(touch.place, touch.force);
   return out;
 }
 
-std::vector<SymMat3<double>> stresses_of_shells(const Workspace& work, const Tissue& tissue) {
+/// The V of the stress of each owned shell: what it would be if facets with spheres were flat. One force in the middle of such a facet stands for a pressure on
+/// it, whose virial is that on a plane there [µm³].
+std::vector<double> stressed_volumes_of_shells(const Workspace& work, std::span<const SphereTouch> touches) {
+  const auto& volume = work.geometry.now().volume;
+  std::vector<double> out(volume.begin(), volume.begin() + static_cast<std::ptrdiff_t>(work.scene.owned_shells()));
+  for (const SphereTouch& touch : touches)
+    if (touch.surface < out.size()) out[touch.surface] += touch.bulge;
+  return out;
+}
+
+std::vector<SymMat3<double>> stresses_of_shells(const Workspace& work, const Tissue& tissue, std::span<const SphereTouch> touches) {
   const std::vector<Vec3d> loads = load_forces(work.setting.model, tissue, work.setting.comm);
   const Scene& scene = work.scene;
-  std::vector<SymMat3<double>> out = virials_within_contacts(work);
+  std::vector<SymMat3<double>> out = virials_within_contacts(work, touches);
+  const std::vector<double> volume = stressed_volumes_of_shells(work, touches);
   const std::span<const Vec3d> x = scene.position(), of_contacts = work.terms.contacts->found().force;
   parallel_for(work.setting.threads, out.size(), [&](std::size_t i) {
     const ContactBody& body = scene.bodies()[i];
@@ -54,7 +67,7 @@ std::vector<SymMat3<double>> stresses_of_shells(const Workspace& work, const Tis
     SymMat3<double> sum;
     for (std::uint32_t n = body.first_point; n < body.first_point + body.point_count; ++n)
       sum += symmetric(x[n] - center, loads.empty() ? of_contacts[n] : of_contacts[n] + loads[n]);
-    out[i] = (1.0 / work.geometry.now().volume[i]) * (sum + -1.0 * out[i]);
+    out[i] = (1.0 / volume[i]) * (sum + -1.0 * out[i]);
   });
   return out;
 }
@@ -127,7 +140,8 @@ void Mechanics::look(const Tissue& tissue) {
 
 std::vector<double> Mechanics::pressures(const Tissue& tissue) {
   look(tissue);
-  return pressures_from(*work_, tissue, stresses_of_shells(*work_, tissue), touches_of_spheres(*work_));
+  const std::vector<SphereTouch> touches = touches_of_spheres(*work_);
+  return pressures_from(*work_, tissue, stresses_of_shells(*work_, tissue, touches), touches);
 }
 
 BodyValues Mechanics::values(const Tissue& tissue) {
@@ -135,13 +149,15 @@ BodyValues Mechanics::values(const Tissue& tissue) {
   const Workspace& work = *work_;
   const std::vector<SphereTouch> touches = touches_of_spheres(work);
   BodyValues values;
-  values.stress = stresses_of_shells(work, tissue);
+  values.stress = stresses_of_shells(work, tissue, touches);
   values.pressure = values.inner_pressure = pressures_from(work, tissue, values.stress, touches);
   const std::size_t shells = work.scene.owned_shells(), spheres = work.scene.owned_spheres();
+  values.stressed_volume = stressed_volumes_of_shells(work, touches);
   values.stress.resize(shells + spheres);
-  for (auto* v : {&values.volume, &values.stressed_volume, &values.area, &values.contact_area}) v->assign(shells + spheres, 0.0);
+  values.stressed_volume.resize(shells + spheres);
+  for (auto* v : {&values.volume, &values.area, &values.contact_area}) v->assign(shells + spheres, 0.0);
   for (std::size_t i = 0; i < shells; ++i) {
-    values.volume[i] = values.stressed_volume[i] = work.geometry.now().volume[i];
+    values.volume[i] = work.geometry.now().volume[i];
     values.area[i] = work.geometry.now().area[i];
     values.inner_pressure[i] = work.terms.membranes->found().pressure[i];
   }

@@ -14,8 +14,9 @@ struct BodyValues {
   /// (fields_and_coupling.md, D; decision 0023), less what adhesion does to the tension of a shell's own surface (decision 0054); symmetric
   /// part, tension positive [kPa].
   std::vector<SymMat3<double>> stress;
-  std::vector<double> stressed_volume;  ///< the V of this stress: a sphere's is what its bulk modulus leaves of its ball [µm³]
-  std::vector<double> pressure;         ///< −tr σ/3, of shells and spheres alike [kPa]
+  std::vector<double>
+      stressed_volume;  ///< the V of this stress: a sphere's is what its bulk modulus leaves of its ball, a shell's has flat facets with spheres [µm³]
+  std::vector<double> pressure;        ///< −tr σ/3, of shells and spheres alike [kPa]
   std::vector<double> inner_pressure;  ///< shells: −K_V ln(V/V0), which bears the cortex, too; spheres, which have none: the pressure [kPa]
   std::vector<double> contact_area;    ///< [µm²]
 };

@@ -89,7 +89,7 @@ void add_pressure_jumps(std::vector<ReferenceNumber>& out) {
   const std::string page = "fields_and_coupling.md D (a)";
   constexpr double kAim = 0.05;
   for (const Level& level :
-       {Level{"0.95", 0.95, 0.08, kAim, kAim}, Level{"0.90", 0.90, kAim, kAim, kAim}, Level{"0.85", 0.85, kAim, kAim, kAim}}) {
+       {Level{"0.95", 0.95, 0.08, kAim, kAim}, Level{"0.90", 0.90, 0.06, kAim, kAim}, Level{"0.85", 0.85, 0.06, kAim, kAim}}) {
     const std::string at = std::string(" at V/V0 ") + level.part, name = std::string("half") + (level.part + 2);
     struct Kind {
       const char* cells;

@@ -25,7 +25,7 @@ struct Compression {
   /// - the cortex of a polyhedron (area 5.35 V^(2/3)) presses 2γA/(3V) = 76 Pa, that of the free ball 2γ/R = 67 Pa: half of 9 Pa less;
   /// - beside spheres shells grow into the corners that no ball fills (about half of the 34 µm³ by which the dodecahedron of a
   ///   cell is outside its ball): 0.5 % of all volume and 12 to 14 Pa less, where the pressure is high enough to bend the cortex into them (0.90 and 0.85).
-  /// Together +4 %, −5 % and −4 %, and layers differ.
+  /// Together +4 %, −5 % and −4 %, and layers differ: shells at the interface, whose stress is that of flat facets (decision 0054), have up to 9.4 % at 0.95.
   double level;
   friend void PrintTo(const Compression& c, std::ostream* out) { *out << c.ratio; }
 };
@@ -84,7 +84,7 @@ TEST_P(HybridBlock, HasOnePressure) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Compressed, HybridBlock,
-                         testing::Values(Compression{0.95, 0.09}, Compression{0.90, 0.07}, Compression{0.85, 0.05}));
+                         testing::Values(Compression{0.95, 0.1}, Compression{0.90, 0.07}, Compression{0.85, 0.05}));
 
 }  // namespace
 }  // namespace morula::scenarios

@@ -101,5 +101,37 @@ TEST(MixedContact, OfFittedSpheresComesTogetherAsFastAsShells) {
   EXPECT_GT(mixed, shells / 3.0);
 }
 
+/// Two cells that traps hold together or apart: whatever their bodies and their adhesion, their stresses are together that of one force along the line between
+/// their centres (decision 0054).
+TEST(MixedContact, OfAdheringBodiesHasTheStressOfTheForceBetweenThem) {
+  for (const char* adhesion : {"0", "0.03", "0.1"}) {  // [mN/m]
+    const test::Folder folder;
+    const auto study = test::read(std::string(R"(schema: 1
+study: held
+time: {end: 90 min, output: 90 min}
+domain: {size: [100 um, 100 um, 100 um]}
+cell_types:
+  a: {body: sphere, adhesion: {others: )") +
+                                  adhesion + R"( mN/m}}
+  b: {like: a, body: shell}
+loads:
+  one: {type: a, trap: {stiffness: 5 mN/m, center: [0 um, 0 um, 0 um]}}
+  other: {type: b, trap: {stiffness: 5 mN/m, center: [11.9 um, 0 um, 0 um], direction: [-1, 0, 0], way: [{time: 0 s, distance: 0 um}, {time: 30 min, distance: 2.3 um}]}}
+initial: [{type: a, at: [0 um, 0 um, 0 um]}, {type: b, at: [11.9 um, 0 um, 0 um]}]
+output: {report: false}
+)");
+    ASSERT_TRUE(study.ok()) << study.error().text();
+    ASSERT_TRUE(test::run_into(folder.path() / "run", *study));
+    const auto end = read_snapshot(folder.path() / "run/results.h5", 1);
+    ASSERT_TRUE(end.ok());
+    const Snapshot::Cell &sphere = end->cells[0], &shell = end->cells[1];
+    const double of_traps = 5.0 * norm(sphere.centroid);  // the force that holds the sphere [nN]
+    const double work = of_traps * norm(shell.centroid - sphere.centroid);
+    const double virials = 3.0 * (sphere.pressure * sphere.volume + shell.pressure * shell.volume);
+    EXPECT_GT(work, 1.0) << adhesion;
+    EXPECT_NEAR(virials, work, 0.08 * work) << adhesion << " mN/m; with its adhesion the shell had 0.5 W A too much";
+  }
+}
+
 }  // namespace
 }  // namespace morula::scenarios

@@ -83,6 +83,67 @@ TEST(MovingObstacles, PushShellsThatStayRound) {
       << "nN; a tight solver has the drag within 0.002, and 3.5 were told before";
 }
 
+/// While nothing moves the steps become long; what comes from far away must not be past a cell in one of them.
+TEST(MovingObstacles, OfAnySpeedMeetTheCellThatTheyComeTo) {
+  for (const char* body : {"sphere", "shell"})
+    for (const double speed : {0.2, 1.0, 5.0}) {  // [µm/s]
+      const double gap = 60.0, end = (gap + 20.0) / speed;
+      const std::string text = R"(schema: 1
+study: met
+time: {end: )" + std::to_string(end) +
+                               " s, output: " + std::to_string(end) + R"( s}
+domain: {size: [200 um, 200 um, 400 um]}
+cell_types: {a: {radius: 5 um, adhesion: {p: 0 J/m^2}, body: )" +
+                               body + R"(}}
+geometry: {p: {plane: {center: [0 um, 0 um, -65 um], size: 150 um}, motion: {velocity: [0 um/s, 0 um/s, )" +
+                               std::to_string(speed) + " um/s]}}}\ninitial: [{type: a, at: [0 um, 0 um, 0 um]}]\noutput: {report: false}\n";
+      const auto moments = test::snapshots_of_run(text);
+      ASSERT_EQ(moments.size(), 2u);
+      const double above = moments.back().snapshot.cells[0].centroid.z - (speed * end - 65.0);
+      EXPECT_GT(above, 1.0) << body << ' ' << speed << " um/s";
+      EXPECT_LT(above, 5.1) << body << ' ' << speed << " um/s";
+    }
+}
+
+/// A ball that rolls past beside a cell of the same height pushes it aside as small steps have it.
+TEST(MovingObstacles, ThatComeAlongPushCellsAsSmallStepsHaveIt) {
+  const auto place = [](const char* step) {
+    const std::string text = std::string(R"(schema: 1
+study: past
+time: {end: 10 min, output: 10 min, step: )") +
+                             step + R"(}
+domain: {size: [200 um, 200 um, 200 um]}
+cell_types: {a: {radius: 5 um, adhesion: {p: 0 J/m^2}}}
+geometry: {p: {sphere: {center: [-60 um, 1 um, 0 um], radius: 3 um}, motion: {velocity: [0.2 um/s, 0 um/s, 0 um/s]}}}
+initial: [{type: a, at: [0 um, 0 um, 0 um]}]
+output: {report: false}
+)";
+    const auto moments = test::snapshots_of_run(text);
+    return moments.empty() ? Vec3d{} : moments.back().snapshot.cells[0].centroid;
+  };
+  const Vec3d small = place("2 s"), usual = place("auto");
+  EXPECT_GT(norm(small), 3.0);
+  EXPECT_LT(norm(usual - small), 0.3);
+}
+
+/// A free cell goes ∫F dt/Γ, whatever the course of the force.
+TEST(BodyForces, OverTimeDriveFreeCellsByTheirIntegral) {
+  const auto moments = test::snapshots_of_run(R"(schema: 1
+study: driven
+time: {end: 20 min, output: 5 min}
+domain: {size: [200 um, 200 um, 200 um]}
+cell_types: {a: {radius: 6 um}}
+initial: [{type: a, at: [0 um, 0 um, 0 um]}]
+loads: {l: {type: a, body_force: [0.3 nN, 0 nN, 0 nN], course: [{time: 100 s, factor: 0}, {time: 333 s, factor: 1}, {time: 500 s, factor: -2.5}, {time: 900 s, factor: 0.5}]}}
+output: {report: false}
+)");
+  ASSERT_EQ(moments.size(), 5u);
+  const double first = 0.3 * 0.5 * 200.0 * 200.0 / 233.0 / kDrag;  // until 300 s
+  const double all = 0.3 * (0.5 * 233.0 - 0.5 * 1.5 * 167.0 - 0.5 * 2.0 * 400.0 + 0.5 * 300.0) / kDrag;
+  EXPECT_NEAR(moments[1].snapshot.cells[0].centroid.x, first, 0.04 * first);
+  EXPECT_NEAR(moments[4].snapshot.cells[0].centroid.x, all, 0.03 * std::abs(all));
+}
+
 TEST(Traps, BearTheLoadWhateverIsFarAway) {
   const std::string text = R"(schema: 1
 study: trapped

@@ -80,7 +80,7 @@ TEST(CostModel, GrowthRateCountsWhatDaughtersBecome) {
 }
 
 TEST(CostModel, EstimatesAStudyBeforeItRuns) {
-  const auto study = test::read(test::kGoodStudy);
+  const auto study = test::read(test::changed("count: 60, fill: sphere, radius: 40 um", "count: 400, fill: sphere, radius: 60 um"));
   ASSERT_TRUE(study.ok()) << study.error().text();
   const auto guess = estimate(*study);
   ASSERT_TRUE(guess.ok()) << guess.error().message;
