@@ -12,7 +12,7 @@ namespace morula {
 namespace {
 
 constexpr double kDepth = 0.1;    // of the radius: so much deeper may an obstacle come within a step
-constexpr double kHalf = 0.5;     // of its distance from the centre, which it keeps
+constexpr double kKept = 0.5;     // of its distance from the centre, which it keeps
 constexpr double kLeast = 0.05;   // of the radius: so far it may go at any rate, where a cell lies in it already
 constexpr int kMostStrides = 64;  // along an obstacle that slides past; the step then ends there
 
@@ -23,10 +23,9 @@ double distance_of(const RigidSurface& surface, const Vec3d& p, double cutoff) {
 
 /// How far a surface may go along `direction`, up to `most`, until it is nearer to p than the ball around p allows: in strides that no point of it can cross [µm].
 double free_way(const RigidSurface& surface, const Vec3d& p, double radius, const Vec3d& direction, double most) {
-  if (most <= kLeast * radius) return most;
   double distance = distance_of(surface, p, radius + most);
   const double touch = std::min(radius, distance);
-  const double nearest = std::max(touch - kDepth * radius, kHalf * touch);
+  const double nearest = std::max(touch - kDepth * radius, kKept * touch);
   double way = 0.0;
   for (int k = 0; k < kMostStrides; ++k) {
     const double stride = distance - nearest;
@@ -54,10 +53,10 @@ double longest_step_of_obstacles(const Model& model, const Tissue& tissue, std::
     const Vec3d direction = way * (1.0 / length);
     const double left_over = parallel_max(threads, bodies.size(), [&](std::size_t k) {  // of the way, what this cell forbids
       const double radius = ball_radius(tissue.cells.rows[bodies[k].row].target_volume);
+      if (length <= kLeast * radius) return 0.0;
       const Vec3d center = center_of(tissue, bodies[k]);
+      const Box around = Box{center, center}.inflated(radius + length);
       double free = length;
-      const double reach = radius + length;
-      const Box around{center - Vec3d{reach, reach, reach}, center + Vec3d{reach, reach, reach}};
       for_images(obstacles[o], tissue.obstacle_offset[o], model.space, around, [&](const SurfaceImage& image) {
         free = std::min(free, free_way(obstacles[o], center - (tissue.obstacle_offset[o] + image.shift), radius, direction, length));
       });

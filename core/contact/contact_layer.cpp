@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/contact/float_rounding.h"
+#include "core/contact/sphere_touch.h"
 #include "core/parallel/threads.h"
 
 namespace morula {
@@ -176,29 +177,6 @@ double ContactLayer::way_of(const ContactScene& scene, const ContactBody& body, 
   return furthest;
 }
 
-namespace {
-
-/// Of the forces on a surface, Σ (x − center) ⊗ f: at its nodes, and of energies by area, which are tensions [nN·µm].
-SymMat3<double> virial_about(const Vec3d& center, const PairBody& surface, std::span<const std::uint16_t> nodes,
-                             const PairGradient& gradient) {
-  SymMat3<double> out;
-  for (const std::uint16_t node : nodes) {
-    const Vec3d x = surface.node(node) - center, f = gradient.force[node].value();
-    out += {x.x * f.x, 0.5 * (x.x * f.y + x.y * f.x), 0.5 * (x.x * f.z + x.z * f.x), x.y * f.y, 0.5 * (x.y * f.z + x.z * f.y), x.z * f.z};
-  }
-  for (std::size_t k = 0; k < gradient.source_face.size(); ++k) {
-    const double energy = gradient.face_energy[k];
-    if (energy == 0.0) continue;
-    const Triangle& t = surface.topology->faces()[gradient.source_face[k]];
-    const Vec3d twice = cross(surface.node(t[1]) - surface.node(t[0]), surface.node(t[2]) - surface.node(t[0]));
-    const double area = 0.5 * norm(twice);
-    if (area > 0.0) out += outer(energy * area, twice * (0.5 / area)) + isotropic(-energy * area);
-  }
-  return out;
-}
-
-}  // namespace
-
 void ContactLayer::evaluate_pair(const ContactScene& scene, SurfacePair& pair, PairGradient (&gradient)[2], PointsWorkspace& workspace,
                                  ElementStore& store) {
   const bool held = !scene.bodies[pair.a].moves && (pair.rigid || !scene.bodies[pair.b].moves);
@@ -277,43 +255,6 @@ void ContactLayer::find_penetration(const ContactScene& scene, std::span<Penetra
     sum.volume += of_pair[k].volume;
     sum.slope += of_pair[k].slope;
   }
-}
-
-std::vector<SphereTouch> ContactLayer::touches_of_spheres(const ContactScene& scene) const {
-  const std::vector<std::uint32_t>& list = pairs_of_kind_[static_cast<std::size_t>(SurfacePairKind::kWithSphere)];
-  const FaceQuadrature& quadrature = FaceQuadrature::with_points(settings_.points_per_face);
-  std::vector<SphereTouch> out(list.size());
-  parallel_for(settings_.threads, list.size(), [&](std::size_t k) {
-    const SurfacePair& pair = pairs_[list[k]];
-    const int d = scene.bodies[pair.a].shape == BodyShape::kSurface ? 0 : 1;
-    const PairBody surface = view(scene, pair, d);
-    const PairBody sphere = view(scene, pair, 1 - d);
-    Vec3d sum, facing;
-    double weight = 0.0, overlap = 0.0, cones = 0.0;  // the last three times the volume between the contact and the sphere's centre
-    for (const ContactElement& element : pair.present(static_cast<std::size_t>(d))) {
-      const auto area = static_cast<double>(element.area());
-      if (area == 0.0) continue;
-      const Triangle& t = surface.topology->faces()[element.source_face()];
-      const auto& beta = quadrature.weight[element.point()];
-      Vec3d at;
-      for (std::size_t i = 0; i < 3; ++i) at += (surface.node(t[i]) - sphere.node(0)) * beta[i];
-      const Vec3d twice = cross(surface.node(t[1]) - surface.node(t[0]), surface.node(t[2]) - surface.node(t[0]));
-      const Vec3d vector_area = twice * (area / norm(twice));
-      facing += vector_area, cones += dot(at, vector_area);
-      sum += at * area;
-      overlap += std::max(0.0, sphere.radius - norm(at)) * area;
-      weight += area;
-    }
-    const double length = norm(sum);
-    const Vec3d place = length > 0.0 ? sum * ((1.0 + 0.5 * overlap / length) / weight) : Vec3d{};
-    out[k] = {.sphere = d == 0 ? pair.b : pair.a,
-              .surface = d == 0 ? pair.a : pair.b,
-              .place = place,
-              .force = pair.push,
-              .area = pair.area,
-              .bulge = (dot(place, facing) - cones) / 3.0};
-  });
-  return out;
 }
 
 void ContactLayer::evaluate(const ContactScene& scene, SurfacePairKind kind, ContactGradient& gradient) {

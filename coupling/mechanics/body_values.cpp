@@ -3,6 +3,7 @@
 
 #include "core/ball.h"
 #include "core/parallel/threads.h"
+#include "core/virial.h"
 #include "coupling/loads/loads.h"
 #include "coupling/lumens.h"
 #include "coupling/mechanics/mechanics.h"
@@ -10,11 +11,6 @@
 
 namespace morula {
 namespace {
-
-/// Symmetric part of a ⊗ b.
-SymMat3<double> symmetric(const Vec3d& a, const Vec3d& b) {
-  return {a.x * b.x, 0.5 * (a.x * b.y + a.y * b.x), 0.5 * (a.x * b.z + a.z * b.x), a.y * b.y, 0.5 * (a.y * b.z + a.z * b.y), a.z * b.z};
-}
 
 double trace(const SymMat3<double>& m) { return m.xx + m.yy + m.zz; }
 
@@ -41,7 +37,7 @@ std::vector<SymMat3<double>> virials_within_contacts(const Workspace& work, std:
     if (!pair.rigid) add(pair.b, pair.within[1]);
   }
   for (const SphereTouch& touch : touches)  // a sphere bears the surface in one place
-    if (touch.surface < out.size()) out[touch.surface] += symmetric(touch.place, touch.force);
+    if (touch.surface < out.size()) out[touch.surface] += virial_of(touch.place, touch.force);
   return out;
 }
 
@@ -66,7 +62,7 @@ std::vector<SymMat3<double>> stresses_of_shells(const Workspace& work, const Tis
     const Vec3d center = volume_centroid(scene.topologies()[i]->faces(), x.subspan(body.first_point, body.point_count));
     SymMat3<double> sum;
     for (std::uint32_t n = body.first_point; n < body.first_point + body.point_count; ++n)
-      sum += symmetric(x[n] - center, loads.empty() ? of_contacts[n] : of_contacts[n] + loads[n]);
+      sum += virial_of(x[n] - center, loads.empty() ? of_contacts[n] : of_contacts[n] + loads[n]);
     out[i] = (1.0 / volume[i]) * (sum + -1.0 * out[i]);
   });
   return out;
@@ -102,7 +98,7 @@ void add_values_of_spheres(const Workspace& work, const Tissue& tissue, std::spa
     if (!scene.bodies()[touch.sphere].owned) continue;
     SphereContacts::Pressing& sum = pressing[touch.sphere - scene.first_sphere()];
     sum.with_cells += touch.area;
-    sum.virial += symmetric(touch.place, touch.force * -1.0);
+    sum.virial += virial_of(touch.place, touch.force * -1.0);
   }
   for (std::size_t i = 0; i < scene.owned_spheres(); ++i) {
     const CellType& type = work.setting.model.types[tissue.spheres.type[i]];

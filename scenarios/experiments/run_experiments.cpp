@@ -97,7 +97,7 @@ Status run_and_tell(const Experiment& experiment, const ExperimentRequest& reque
 Result<std::vector<ExperimentOutcome>> run_experiments(std::span<const Experiment> experiments, const ExperimentRequest& request,
                                                        const Comm& comm) {
   const std::vector<std::size_t> share = share_of(comm, experiments);
-  const int threads_of_one = std::max(1, request.threads / static_cast<int>(std::max<std::size_t>(share.size(), 1)));
+  const int threads_of_one = share.size() == 1 ? request.threads : 1;  // one alone has them all
   std::mutex one_at_a_time;
   Status stopped;
   one_by_one(request.threads, share.size(), [&](std::size_t k) {

@@ -157,6 +157,15 @@ TEST(Bodies, AdhesionBeyondJkrIsToldWithItsNumbers) {
   EXPECT_THAT(soft, HasSubstr("1.6 kPa"));
   EXPECT_THAT(test::warnings_of(with("cbm: {young: 1.6 kPa}")), Not(HasSubstr("E647"))) << "what the help says helps";
   EXPECT_THAT(test::warnings_of(with("adhesion: {cell: 2e-4 J/m^2}")), HasSubstr("[E647]"));
+  const auto unlike = [](const char* stiff, const char* soft_one) {  // that adhere to each other alone
+    return test::changed(
+        "  cell:\n",
+        std::string("  other: {radius: 4 um, adhesion: {cell: 1e-4 J/m^2, other: 0 J/m^2}, cbm: {young: ") + soft_one + "}}\n  cell:\n",
+        test::changed("  - {type: cell,", "  - {type: other, at: [[60 um, 0 um, 0 um]]}\n  - {type: cell,",
+                      with(std::string("adhesion: {cell: 0 J/m^2}\n    cbm: {young: ") + stiff + "}")));
+  };
+  EXPECT_THAT(test::warnings_of(unlike("1.5 kPa", "0.7 kPa")), AllOf(HasSubstr("[E647]"), HasSubstr("`cbm.young` of 3.4 kPa for both")));
+  EXPECT_THAT(test::warnings_of(unlike("3.4 kPa", "3.4 kPa")), Not(HasSubstr("E647"))) << "what the help says helps";
   EXPECT_THAT(test::warnings_of(with("cbm: {young: 450 Pa, law: hertz}")), Not(HasSubstr("E647")));
   EXPECT_THAT(test::warnings_of(test::changed("radius: 40 um}", kAsShell, with("cbm: {young: 450 Pa}"))), Not(HasSubstr("E647")));
 }
