@@ -8,100 +8,103 @@
 namespace morula {
 namespace {
 
-/// What one thread does: a stretch of the old pairs, and of those that were found what comes among and behind them.
+/// New numbers of spheres, by old one, with a bit that says to look closer: the sphere is fresh, or gone.
+class Codes {
+ public:
+  Codes(const SphereRenumbering& number, std::span<const char> fresh) : code_(number.now) {
+    for (std::uint32_t& code : code_)
+      if (code != BodyChanges::kNone && fresh[code] != 0) code |= kLookCloser;
+  }
+  [[nodiscard]] std::uint32_t of(std::uint32_t old) const { return code_[old]; }
+  static bool is_plain(std::uint32_t a, std::uint32_t b) { return ((a | b) & kLookCloser) == 0; }
+  static std::uint32_t number(std::uint32_t code) { return code & ~kLookCloser; }
+
+ private:
+  static constexpr std::uint32_t kLookCloser = 0x80000000u;
+  std::vector<std::uint32_t> code_;
+};
+
+/// What one thread does: a stretch of the old pairs.
 struct Stretch {
-  std::size_t first = 0, last = 0;  ///< old pairs
-  std::size_t kept = 0, found = 0;  ///< how many of them stay; the first of the found that comes in here
-  std::vector<std::uint32_t> dropped, of_fresh;
+  std::size_t first = 0, last = 0, end = 0;  ///< old pairs; where those that stay end, beginning with `first`
+  std::vector<SpherePair> dropped;
+  std::vector<std::uint32_t> of_fresh;  ///< of those that stay, counted from `first`
 };
 
-struct Merge {
-  std::span<const SpherePair> old;
-  const SphereRenumbering& number;
-  std::span<const SphereNeighbours> found;
-  std::span<const ContactBody> spheres;
-  std::uint32_t first_sphere;
-  std::span<const char> fresh;
-  std::span<const std::uint32_t> watched;
-
-  [[nodiscard]] bool stays(const SpherePair& pair) const {
-    return number.now[pair.a] != BodyChanges::kNone && number.now[pair.b] != BodyChanges::kNone;
-  }
-  [[nodiscard]] SpherePair renumbered(SpherePair pair) const {
-    pair.a = number.now[pair.a];
-    pair.b = number.now[pair.b] & 0x7FFFFFFFu;
-    return pair;
-  }
-  /// Of the found ones the first that does not come before a pair.
-  [[nodiscard]] std::size_t first_from(const SpherePair& pair) const {
-    const auto at = std::ranges::partition_point(
-        found, [&](const SphereNeighbours& n) { return comes_before(spheres, pair_of(n, first_sphere), pair); });
-    return static_cast<std::size_t>(at - found.begin());
-  }
-
-  void lay_out(Stretch& s) const {
-    for (std::size_t k = s.first; k < s.last; ++k)
-      if (!stays(old[k])) s.dropped.push_back(static_cast<std::uint32_t>(k));
-    s.kept = s.last - s.first - s.dropped.size();
-    s.found = found.size();
-    if (s.first == 0)
-      s.found = 0;
-    else if (s.kept > 0)
-      s.found = first_from(renumbered(*std::find_if(old.begin() + static_cast<std::ptrdiff_t>(s.first), old.end(),
-                                                    [&](const SpherePair& pair) { return stays(pair); })));
-  }
-
-  /// Writes what belongs to a stretch, from place `to` on; `last_found`: the first of the found that belongs to the next one.
-  void write(Stretch& s, std::size_t to, std::size_t last_found, MergedPairs& out) const {
-    const auto add = [&](const SpherePair& pair) {
-      if ((fresh[pair.a] | fresh[pair.b]) != 0) s.of_fresh.push_back(static_cast<std::uint32_t>(to));
-      out.pairs[to++] = pair;
-    };
-    std::size_t next = s.found;
-    auto watch = static_cast<std::size_t>(std::ranges::lower_bound(watched, s.first) - watched.begin());
-    for (std::size_t k = s.first; k < s.last; ++k) {
-      const bool is_watched = watch < watched.size() && watched[watch] == k;
-      if (is_watched) out.watched[watch] = MergedPairs::kGone;
-      if (stays(old[k])) {
-        const SpherePair pair = renumbered(old[k]);
-        while (next < last_found && comes_before(spheres, pair_of(found[next], first_sphere), pair))
-          add(pair_of(found[next++], first_sphere));
-        if (is_watched) out.watched[watch] = static_cast<std::uint32_t>(to);
-        add(pair);
-      }
-      watch += is_watched;
+/// Renumbers the pairs of a stretch where they are, closing the gaps. watched: the first of all that lies in the stretch.
+void renumber(std::vector<SpherePair>& pairs, const Codes& codes, std::span<const std::uint32_t> watched,
+              std::span<std::uint32_t> watched_now, Stretch& s) {
+  auto watch = static_cast<std::size_t>(std::ranges::lower_bound(watched, s.first) - watched.begin());
+  std::size_t to = s.first;
+  for (std::size_t k = s.first; k < s.last; ++k) {
+    const SpherePair old = pairs[k];
+    const std::uint32_t a = codes.of(old.a), b = codes.of(old.b);
+    bool stays = true;
+    if (!Codes::is_plain(a, b)) {
+      stays = a != BodyChanges::kNone && b != BodyChanges::kNone;
+      stays ? s.of_fresh.push_back(static_cast<std::uint32_t>(to - s.first)) : s.dropped.push_back(old);
     }
-    while (next < last_found) add(pair_of(found[next++], first_sphere));
+    if (watch < watched.size() && watched[watch] == k)
+      watched_now[watch++] = stays ? static_cast<std::uint32_t>(to - s.first) : MergedPairs::kGone;
+    pairs[to] = {Codes::number(a), Codes::number(b) & 0x7FFFFFFFu, old.attached};
+    to += stays;
   }
-};
+  s.end = to;
+}
 
 }  // namespace
 
-MergedPairs merge_sphere_pairs(std::span<const SpherePair> old, const SphereRenumbering& number, std::span<const SphereNeighbours> found,
+MergedPairs merge_sphere_pairs(std::vector<SpherePair>& pairs, const SphereRenumbering& number, std::span<const SphereNeighbours> found,
                                std::span<const ContactBody> spheres, std::uint32_t first_sphere, std::span<const char> fresh,
                                std::span<const std::uint32_t> watched, int threads) {
   const auto count = static_cast<std::size_t>(std::max(1, threads));
-  const Merge merge{old, number, found, spheres, first_sphere, fresh, watched};
-  std::vector<Stretch> stretches(count);
-  on_each_thread(threads, [&](std::size_t t) {
-    stretches[t].first = old.size() * t / count;
-    stretches[t].last = old.size() * (t + 1) / count;
-    merge.lay_out(stretches[t]);
-  });
+  const Codes codes(number, fresh);
   MergedPairs out;
   out.watched.resize(watched.size());
-  std::vector<std::size_t> kept_before(count, 0), last_found(count, found.size());
-  for (std::size_t t = 1; t < count; ++t) kept_before[t] = kept_before[t - 1] + stretches[t - 1].kept;
-  for (std::size_t t = count - 1; t-- > 0;) {
-    stretches[t].found = std::min(stretches[t].found, stretches[t + 1].found);
-    last_found[t] = stretches[t + 1].found;
-  }
-  out.pairs.resize(kept_before.back() + stretches.back().kept + found.size());
-  on_each_thread(threads, [&](std::size_t t) { merge.write(stretches[t], kept_before[t] + stretches[t].found, last_found[t], out); });
+  std::vector<Stretch> stretches(count);
+  on_each_thread(threads, [&](std::size_t t) {
+    stretches[t].first = pairs.size() * t / count;
+    stretches[t].last = pairs.size() * (t + 1) / count;
+    renumber(pairs, codes, watched, out.watched, stretches[t]);
+  });
+  // The stretches close up.
+  std::size_t kept = 0, watch = 0;
   for (const Stretch& s : stretches) {
+    for (; watch < watched.size() && watched[watch] < s.last; ++watch)
+      if (out.watched[watch] != MergedPairs::kGone) out.watched[watch] += static_cast<std::uint32_t>(kept);
+    for (const std::uint32_t k : s.of_fresh) out.of_fresh.push_back(static_cast<std::uint32_t>(kept + k));
     out.dropped.insert(out.dropped.end(), s.dropped.begin(), s.dropped.end());
-    out.of_fresh.insert(out.of_fresh.end(), s.of_fresh.begin(), s.of_fresh.end());
+    if (kept != s.first)
+      std::copy(pairs.begin() + static_cast<std::ptrdiff_t>(s.first), pairs.begin() + static_cast<std::ptrdiff_t>(s.end),
+                pairs.begin() + static_cast<std::ptrdiff_t>(kept));
+    kept += s.end - s.first;
   }
+  // What was found comes in, from behind.
+  std::vector<std::size_t> before(found.size());  // of the pairs that stay, how many come before it
+  for (std::size_t f = 0; f < found.size(); ++f)
+    before[f] = static_cast<std::size_t>(
+        std::lower_bound(pairs.begin(), pairs.begin() + static_cast<std::ptrdiff_t>(kept), pair_of(found[f], first_sphere),
+                         [&](const SpherePair& p, const SpherePair& q) { return comes_before(spheres, p, q); }) -
+        pairs.begin());
+  const std::size_t all = kept + found.size();
+  if (all > pairs.capacity()) pairs.reserve(all + all / 64);  // no growth by doubling
+  pairs.resize(all);
+  std::size_t end = kept;
+  for (std::size_t f = found.size(); f-- > 0; end = before[f]) {
+    std::move_backward(pairs.begin() + static_cast<std::ptrdiff_t>(before[f]), pairs.begin() + static_cast<std::ptrdiff_t>(end),
+                       pairs.begin() + static_cast<std::ptrdiff_t>(end + f + 1));
+    pairs[before[f] + f] = pair_of(found[f], first_sphere);
+  }
+  const auto shift = [&](std::uint32_t& k) {  // by those that were found before it
+    k += static_cast<std::uint32_t>(std::ranges::upper_bound(before, k) - before.begin());
+  };
+  for (std::uint32_t& k : out.watched)
+    if (k != MergedPairs::kGone) shift(k);
+  for (std::uint32_t& k : out.of_fresh) shift(k);
+  for (std::size_t f = 0; f < found.size(); ++f)
+    if (const SpherePair pair = pairs[before[f] + f]; (fresh[pair.a] | fresh[pair.b]) != 0)
+      out.of_fresh.push_back(static_cast<std::uint32_t>(before[f] + f));
+  std::ranges::sort(out.of_fresh);
   return out;
 }
 

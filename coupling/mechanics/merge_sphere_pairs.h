@@ -26,18 +26,18 @@ struct SphereRenumbering {
   std::vector<std::uint32_t> place;  ///< of all that are still there
 };
 
-/// A list of pairs after some spheres have come or gone.
+/// What changes beside the list itself when some spheres have come or gone.
 struct MergedPairs {
-  std::vector<SpherePair> pairs;        ///< those that stay and those that were found, in canonical order
-  std::vector<std::uint32_t> dropped;   ///< old pairs that do not stay, increasing
+  std::vector<SpherePair> dropped;      ///< old pairs that do not stay, with their old numbers, in their order
   std::vector<std::uint32_t> of_fresh;  ///< new pairs of which one sphere is fresh, increasing
   std::vector<std::uint32_t> watched;   ///< where the watched old pairs are now, or kGone
   static constexpr std::uint32_t kGone = ~0u;
 };
 
-/// Pairs `old`, whose spheres get new numbers, merged with pairs that were `found` (numbers of bodies, the spheres of which begin with
-/// `first_sphere`). `spheres`: all of the scene. `fresh`: by new number. `watched`: numbers of old pairs, increasing. Found pairs adhere to nobody.
-[[nodiscard]] MergedPairs merge_sphere_pairs(std::span<const SpherePair> old, const SphereRenumbering& number,
+/// Gives the spheres of a list of pairs their new numbers where they stand, takes out pairs that do not stay, and puts those that were `found` (numbers of bodies, the spheres of
+/// which begin with `first_sphere`) among them in canonical order. `spheres`: all of the scene. `fresh`: by new number. `watched`: numbers of old pairs, increasing. Found pairs
+/// adhere to nobody, and are none of those that stay.
+[[nodiscard]] MergedPairs merge_sphere_pairs(std::vector<SpherePair>& pairs, const SphereRenumbering& number,
                                              std::span<const SphereNeighbours> found, std::span<const ContactBody> spheres,
                                              std::uint32_t first_sphere, std::span<const char> fresh,
                                              std::span<const std::uint32_t> watched, int threads);

@@ -10,27 +10,28 @@ namespace morula {
 
 Scene::Birth Scene::birth_of(const CellRow& row) { return {ball_radius(row.birth_volume), row.birth_time}; }
 
-void Scene::add_owned(const Tissue& tissue) {
+std::vector<std::uint64_t> Scene::add_owned(const Tissue& tissue) {
   const auto& shells = tissue.shells;
-  bodies_.clear();
   shapes_.assign(shells.shape.begin(), shells.shape.end());
   count_.owned_shells = shells.size();
   count_.owned_spheres = tissue.spheres.size();
-  std::vector<ContactBody> spheres;
-  for (const CellRow& row : tissue.cells.rows) {
-    ContactBody body;
+  bodies_.assign(tissue.cells.size(), {});
+  std::vector<std::uint64_t> order(tissue.cells.size());
+  for (const BodyOfRow& owned : bodies_of(tissue.cells)) {
+    const CellRow& row = tissue.cells.rows[owned.row];
+    const std::size_t number = owned.place(count_.owned_shells);
+    ContactBody& body = bodies_[number];
     body.id = row.id;
     body.material = row.type;
-    if (row.body == BodyKind::kShell) {
+    order[number] = row.order;
+    if (owned.is_shell) {
       body.shape = BodyShape::kSurface;
-      body.point_count = shapes_[bodies_.size()]->topology->node_count();
-      bodies_.push_back(body);
+      body.point_count = shapes_[owned.number]->topology->node_count();
     } else {
-      body.radius = tissue.spheres.radius[spheres.size()];
-      spheres.push_back(body);
+      body.radius = tissue.spheres.radius[owned.number];
     }
   }
-  bodies_.insert(bodies_.end(), spheres.begin(), spheres.end());
+  return order;
 }
 
 std::vector<Scene::Birth> Scene::sphere_births(const Tissue& tissue) const {
@@ -76,10 +77,8 @@ void Scene::place_bodies(std::span<const std::uint64_t> order) {
 
 void Scene::build(const Tissue& tissue, const Space& space, double reach, ShapeLibrary& library, const Comm& comm) {
   comm_ = &comm;
-  add_owned(tissue);
+  const std::vector<std::uint64_t> order = add_owned(tissue);
   if (comm.size() == 1) {
-    std::vector<std::uint64_t> order(bodies_.size());
-    for (const BodyOfRow& owned : bodies_of(tissue.cells)) order[owned.place(count_.owned_shells)] = tissue.cells.rows[owned.row].order;
     ghosts_ = {};
     place_bodies(order);
   } else {

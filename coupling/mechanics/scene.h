@@ -102,7 +102,8 @@ class Scene {
   [[nodiscard]] std::size_t memory() const;
 
  private:
-  void add_owned(const Tissue& tissue);
+  /// Gives the places along the curve, by body.
+  std::vector<std::uint64_t> add_owned(const Tissue& tissue);
   [[nodiscard]] static Birth birth_of(const CellRow& row);
   /// Several ranks: bodies and shapes of ghosts come in beside the owned ones. Gives the places along the curve, by body.
   std::vector<std::uint64_t> find_ghosts(const Tissue& tissue, const Space& space, double reach, ShapeLibrary& library, const Comm& comm);

@@ -175,9 +175,12 @@ void SphereContacts::write_partners(const Scene& scene, const std::vector<char>&
 std::vector<std::pair<std::uint32_t, CellId>> SphereContacts::partners_of(const Scene& scene, const std::vector<char>& marked) const {
   using Partner = std::pair<std::uint32_t, CellId>;
   const auto owned = static_cast<std::uint32_t>(scene.owned_spheres());
+  std::vector<std::uint64_t> bits(marked.size() / 64 + 1, 0);  // all pairs ask, and few spheres are marked
+  for (std::size_t i = 0; i < marked.size(); ++i) bits[i / 64] |= std::uint64_t{marked[i] != 0} << (i % 64);
+  const auto is_marked = [&](std::uint32_t i) { return bits[i / 64] >> (i % 64) & 1; };
   std::vector<Partner> out = gather<Partner>(threads(), list_.pairs.size(), [&](std::size_t k, std::vector<Partner>& to) {
     const SpherePair& pair = list_.pairs[k];
-    if (!pair.attached || (marked[pair.a] | marked[pair.b]) == 0) return;
+    if ((pair.attached & (is_marked(pair.a) | is_marked(pair.b))) == 0) return;
     if (pair.a < owned && marked[pair.a]) to.emplace_back(pair.a, partner_id(scene, pair.b));
     if (pair.b < owned && marked[pair.b]) to.emplace_back(pair.b, partner_id(scene, pair.a));
   });

@@ -67,8 +67,7 @@ std::vector<std::uint32_t> SphereContacts::merge_pairs(const Scene& scene, const
   std::vector<std::uint32_t> adhering(fresh.size(), 0);
   for (std::size_t i = 0; i < number.place.size(); ++i)
     if (number.place[i] != BodyChanges::kNone) adhering[number.place[i]] = adhering_[i];
-  for (const std::uint32_t k : merged.dropped) {
-    const SpherePair pair = list_.pairs[k];
+  for (const SpherePair& pair : merged.dropped) {
     const std::uint32_t a = number.place[pair.a], b = number.place[pair.b];
     for (const std::uint32_t there : {a, b})
       if (there != BodyChanges::kNone) adhering[there] -= pair.attached;
@@ -78,7 +77,6 @@ std::vector<std::uint32_t> SphereContacts::merge_pairs(const Scene& scene, const
 
   for (std::size_t s = 0; s < sisters_.size(); ++s) sisters_[s].pair = merged.watched[s];
   std::erase_if(sisters_, [](const Sisters& s) { return s.pair == MergedPairs::kGone; });
-  list_.pairs = std::move(merged.pairs);
   return std::move(merged.of_fresh);
 }
 
