@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "cbm/radius_on.h"
+#include "cbm/contact_on.h"
 #include "cbm/sphere_range.h"
 #include "core/ball.h"
 #include "core/contact/broad_phase.h"
@@ -97,7 +97,8 @@ void add_obstacles_of_shells(const Workspace& work, const Balls& balls, Standing
       const auto foot = foot_on_part(obstacles[o], part, center, radius);
       if (!foot || !(foot->distance < radius)) continue;
       const double overlap = radius - foot->distance;
-      const double area = contact.law->respond(contact, cbm::radius_on(radius, foot->curvature), overlap, true).response.area;
+      const cbm::ContactOn on = cbm::contact_on(radius, foot->curvature);
+      const double area = on.area * contact.law->respond(contact, on.radius, overlap, true).response.area;
       to[i].outside = std::max(to[i].outside, cbm::part_of_range(contact, overlap, area, radius));
       to[i].caps += cbm::plane_cap(radius, overlap).volume;
     }

@@ -6,7 +6,7 @@
 #include <map>
 #include <numbers>
 
-#include "cbm/radius_on.h"
+#include "cbm/contact_on.h"
 
 namespace morula {
 namespace {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "cbm/radius_on.h"
 #include "cbm/sphere_range.h"
 #include "core/ball.h"
 #include "core/parallel/threads.h"

@@ -4,7 +4,7 @@
 #include <limits>
 #include <numbers>
 
-#include "cbm/radius_on.h"
+#include "cbm/contact_on.h"
 #include "core/ball.h"
 #include "core/mesh/pseudonormal.h"
 #include "coupling/mechanics/own_contacts.h"
@@ -115,11 +115,11 @@ void SphereContacts::evaluate_rigid(const Scene& scene, std::size_t k) {
   const double overlap = body.radius - pair.distance;
   const auto& entry = table_.entry(body.material, material_of(pair));
   const cbm::PairContact contact = contact_with_obstacle(scene, pair);
-  const auto [response, attached_next] =
-      contact.law->respond(contact, cbm::radius_on(body.radius, pair.support->curvature), overlap, pair.attached);
+  const cbm::ContactOn on = cbm::contact_on(body.radius, pair.support->curvature);
+  const auto [response, attached_next] = contact.law->respond(contact, on.radius, overlap, pair.attached);
   pair.force = response.force;
   pair.energy = response.energy;
-  pair.area = response.area;
+  pair.area = on.area * response.area;
   pair.attached_next = attached_next;
   element.stiffness = static_cast<float>(response.stiffness);
   if (packing_.acts && overlap > 0.0) {  // the wall takes a cap of the sphere; its energy is the sphere's
@@ -134,8 +134,8 @@ void SphereContacts::evaluate_rigid(const Scene& scene, std::size_t k) {
   element.n[1] = static_cast<float>(pair.normal.y);
   element.n[2] = static_cast<float>(pair.normal.z);
   if (friction_is_frozen_) return;
-  element.isotropic = static_cast<float>(response.area * entry.tangential_friction);
-  element.axial = static_cast<float>(response.area * (entry.normal_friction - entry.tangential_friction));
+  element.isotropic = static_cast<float>(pair.area * entry.tangential_friction);
+  element.axial = static_cast<float>(pair.area * (entry.normal_friction - entry.tangential_friction));
 }
 
 SphereContacts::Renewed SphereContacts::renew_supports(const World& world) {

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "results/series_reader.h"
+#include "tests/cbm/hertz_ellipse.h"
 #include "tests/scenarios/snapshots_of_run.h"
 
 namespace morula::scenarios {
@@ -16,27 +16,9 @@ constexpr double kModulus = 1.0 / (1.0 - 0.4 * 0.4);  // E* of a cell of 1 kPa o
 /// Hertz: F = (4/3) E* √R* δ^(3/2).
 double hertz(double reduced) { return std::pow(0.75 * kForce / (kModulus * std::sqrt(reduced)), 2.0 / 3.0); }
 
-/// Of a sphere on a cylinder: Johnson 1985, Contact Mechanics, eqs. 4.28 to 4.32, solved with complete elliptic integrals; principal curvatures a > b of the gap.
-double hertz_elliptic(double a, double b) {
-  const auto both = [](double q) {  // q: minor over major half axis of the contact
-    const double k = std::sqrt(1.0 - q * q);
-    return std::pair{std::comp_ellint_1(k), std::comp_ellint_2(k)};
-  };
-  const auto ratio = [&](double q) {
-    const auto [K, E] = both(q);
-    return (E / (q * q) - K) / (K - E);
-  };
-  double low = 1e-4, high = 1.0 - 1e-6;
-  for (int k = 0; k < 200; ++k) (ratio(0.5 * (low + high)) > a / b ? low : high) = 0.5 * (low + high);
-  const double q = low, e2 = 1.0 - q * q;
-  const auto [K, E] = both(q);
-  const double f1 = std::cbrt(4.0 / (std::numbers::pi * e2) * std::pow(q, 1.5) * std::sqrt((E / (q * q) - K) * (K - E)));
-  const double f2 = 2.0 / std::numbers::pi * std::sqrt(q) * K / f1;
-  return hertz(1.0 / std::sqrt(a * b)) * f2;
-}
-
-/// How deep a cell that begins at this height goes into an obstacle below it, which it touches without overlap at the height `touching`, under 1 nN [µm].
-double overlap(const std::string& obstacle, double z, double touching) {
+/// How deep a cell that begins at this height goes into an obstacle below it, which it touches without overlap at the height `touching`, under 1 nN [µm], and over which area
+/// [µm²].
+HertzEllipse contact(const std::string& obstacle, double z, double touching) {
   const auto moments = test::snapshots_of_run(R"(schema: 1
 study: curved
 time: {end: 40 min, output: 40 min}
@@ -50,8 +32,12 @@ initial: [{type: a, at: [[0 um, 0 um, )" + std::to_string(z) +
                                               R"( um]]}]
 output: {report: false}
 )");
-  return moments.size() < 2 ? std::nan("") : touching - moments.back().snapshot.cells[0].centroid.z;
+  if (moments.size() < 2) return {std::nan(""), std::nan("")};
+  const Snapshot::Cell& cell = moments.back().snapshot.cells[0];
+  return {touching - cell.centroid.z, cell.contact_area};
 }
+
+double overlap(const std::string& obstacle, double z, double touching) { return contact(obstacle, z, touching).overlap; }
 
 TEST(CurvedObstacles, BearSpheresAsHertzSays) {
   EXPECT_NEAR(overlap("{plane: {center: [0 um, 0 um, -20 um], normal: [0, 0, 1], size: 150 um}}", -14.2, -14.0), hertz(kRadius), 2e-3);
@@ -91,11 +77,12 @@ TEST(CurvedObstacles, ThatAreHollowBearForcesWithoutABend) {
 
 TEST(CurvedObstacles, ThatAreRodsBearSpheresOnEllipses) {
   for (const double rod : {6.0, 2.0}) {
-    const double expected = hertz_elliptic(1.0 / kRadius + 1.0 / rod, 1.0 / kRadius);
+    const HertzEllipse expected = hertz_ellipse(1.0 / kRadius + 1.0 / rod, 1.0 / kRadius, kForce, kModulus);
     const std::string text = std::to_string(rod);
-    EXPECT_NEAR(overlap("{cylinder: {from: [-40 um, 0 um, 0 um], to: [40 um, 0 um, 0 um], radius: " + text + " um}}", rod + 5.7, rod + 6.0),
-                expected, 0.01 * expected)
-        << rod;
+    const HertzEllipse found =
+        contact("{cylinder: {from: [-40 um, 0 um, 0 um], to: [40 um, 0 um, 0 um], radius: " + text + " um}}", rod + 5.7, rod + 6.0);
+    EXPECT_NEAR(found.overlap, expected.overlap, 0.01 * expected.overlap) << rod;
+    EXPECT_NEAR(found.area, expected.area, 0.015 * expected.area) << rod;
   }
 }
 
