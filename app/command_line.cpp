@@ -44,6 +44,11 @@ CLI::App* add_verb(CLI::App& program, const char* name, const char* what, const 
   return verb;
 }
 
+/// A shell makes an empty word of a variable that has no value.
+CLI::Validator not_empty() {
+  return {[](const std::string& text) { return text.empty() ? std::string("it is empty") : std::string(); }, ""};
+}
+
 void add_limits(CLI::App& verb, RunLimits& limits) {
   verb.add_option("--until", limits.until,
                   "Simulated time at which to end, as 48h, or the next output after it; instead of the study's time.end")
@@ -75,7 +80,7 @@ void add_running_verbs(CLI::App& program, Parsed& p) {
                             "mpirun -n 4 morula run study.yaml seed=7 cell_types.hepatocyte.radius=\"7 um\"");
   verb->add_option("STUDY", p.run.study, "Study file")->required();
   verb->add_option("KEY=VALUE", p.run.overrides, "Values that replace those of the study, by the path of the key");
-  verb->add_option("--out", p.run.out, "Run folder; it must not exist (default: runs/STUDY-NNNN)")->type_name("DIR");
+  verb->add_option("--out", p.run.out, "Run folder; it must not exist (default: runs/STUDY-NNNN)")->type_name("DIR")->check(not_empty());
   verb->add_option("--promote", p.run.promote, "A cell that is a shell from the start on, by its id; may stand several times")
       ->type_name("ID")
       ->allow_extra_args(false);
@@ -94,7 +99,7 @@ void add_running_verbs(CLI::App& program, Parsed& p) {
       ->type_name("CHECKPOINT");
   verb->add_option("--set", p.resume.overrides, "Change a value of the study; this makes a new run with this one as its parent")
       ->type_name("KEY=VALUE");
-  verb->add_option("--out", p.resume.out, "Folder of the new run that --set or --from makes")->type_name("DIR");
+  verb->add_option("--out", p.resume.out, "Folder of the new run that --set or --from makes")->type_name("DIR")->check(not_empty());
   add_limits(*verb, p.resume.limits);
 
   verb = add_verb(program, "calibrate",
@@ -105,7 +110,8 @@ void add_running_verbs(CLI::App& program, Parsed& p) {
   verb->add_option("STUDY", p.calibrate.study, "Study file")->required();
   verb->add_option("KEY=VALUE", p.calibrate.overrides, "Values that replace those of the study, by the path of the key");
   verb->add_option("--out", p.calibrate.out, "Folder; what was run there before is not run again (default: calibrations/TYPE)")
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->check(not_empty());
   verb->add_flag("--pairs-only", p.calibrate.pairs_only, "No packings that shrink: quicker, and without a fitted curve of packing");
   verb->add_option("--budget", p.calibrate.budget,
                    "Computing time of one core; what there is no time for is left out, what only judges first")
@@ -187,7 +193,9 @@ void add_result_verbs(CLI::App& program, Parsed& p) {
   verb->add_flag("--every", p.compare.every,
                  "Judge where the means are farthest apart, against the largest value (default: at the last common output)");
   verb->add_option("--from", p.compare.from, "Leave out what is before this simulated time")->type_name("TIME");
-  verb->add_option("--out", p.compare.out, "Folder of compare.html and plots/ (default: comparisons/, by the groups)")->type_name("DIR");
+  verb->add_option("--out", p.compare.out, "Folder of compare.html and plots/ (default: comparisons/, by the groups)")
+      ->type_name("DIR")
+      ->check(not_empty());
   verb->add_flag("--json", p.compare.json, "Print JSON; writes no page without --out");
 
   verb = add_verb(program, "export", "Write the snapshots of a run for other programs", "morula export runs/spheroid-0001 vtk --every 4",
@@ -203,7 +211,9 @@ void add_result_verbs(CLI::App& program, Parsed& p) {
       ->capture_default_str();
   verb->add_option("--from", p.export_results.from, "From this simulated time, as 12h")->type_name("TIME");
   verb->add_option("--to", p.export_results.to, "To this simulated time")->type_name("TIME");
-  verb->add_option("--out", p.export_results.out, "Folder to make; it must not exist (default: in RUN, by the format)")->type_name("DIR");
+  verb->add_option("--out", p.export_results.out, "Folder to make; it must not exist (default: in RUN, by the format)")
+      ->type_name("DIR")
+      ->check(not_empty());
 }
 
 Options chosen_options(const std::string& verb, Parsed&& p) {

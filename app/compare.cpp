@@ -68,13 +68,17 @@ std::string json_of(const std::vector<RunGroup>& groups, const Comparison& compa
   return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-/// comparisons/A_B_C; a name may hold what is no name of a folder.
+/// comparisons/A_B_C, or A_B_C-2, -3, ... where that is there already; a name may hold what is no name of a folder.
 fs::path usual_folder(const std::vector<RunGroup>& groups) {
   std::string name;
   for (const RunGroup& group : groups) name += (name.empty() ? "" : "_") + group.name;
   std::ranges::replace_if(
       name, [](char c) { return c == '/' || c == '\\' || c == ' '; }, '-');
-  return fs::path("comparisons") / name;
+  const fs::path all = "comparisons";
+  fs::path folder = all / name;
+  std::error_code error;
+  for (int number = 2; fs::exists(folder, error); ++number) folder = all / (name + "-" + std::to_string(number));
+  return folder;
 }
 
 }  // namespace
@@ -89,6 +93,9 @@ Status compare(const CompareOptions& options, const Context& context) {
   if (!options.from.empty()) {
     MORULA_TRY_ASSIGN(request.from, read_time("--from", options.from));
   }
+  if (std::error_code error; !options.out.empty() && fs::exists(options.out, error))
+    return Error{ErrorKind::kFile, "'" + options.out + "' exists already, and nothing is overwritten",
+                 "name another folder with `--out DIR`"};
   MORULA_TRY_ASSIGN(const std::vector<RunGroup> groups, scenarios::read_groups(options.runs));
   MORULA_TRY_ASSIGN(const Comparison comparison, scenarios::compare(groups, request));
   fs::path page;

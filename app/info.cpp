@@ -32,8 +32,12 @@ Result<scenarios::FinalState> newest_state(const scenarios::RunFolder& run, cons
                     scenarios::load_newest_checkpoint(run.checkpoints(), study->model, shapes, alone));
   for (const std::string& warning : restored.warnings) context.console.warning(warning);
   const Tissue& tissue = restored.checkpoint.tissue;
-  return scenarios::FinalState{tissue.clock.time, tissue.cells.size(), tissue.spheres.size(), tissue.shells.size(),
-                               scenarios::state_hash(tissue, alone).hex()};
+  return scenarios::FinalState{tissue.clock.time,
+                               tissue.cells.size(),
+                               tissue.spheres.size(),
+                               tissue.shells.size(),
+                               scenarios::state_hash(tissue, alone).hex(),
+                               false};
 }
 
 Json json_of(const RunOverview& run, const scenarios::FinalState& state) {
@@ -50,8 +54,8 @@ std::string text_of(const RunOverview& run, const scenarios::FinalState& state) 
   const scenarios::RunRecord& r = run.record;
   std::string out = run.path.string() + ": " + r.study + (r.title.empty() ? "" : ", " + r.title) + "\n";
   out += "  state     " + run.state_word() + (r.message.empty() ? "" : ": " + r.message) + "\n";
-  out += "  time      " + scenarios::time_text(state.time) + (run.status.end > 0.0 ? " of " + scenarios::time_text(run.status.end) : "") +
-         "\n";
+  out += "  time      " + scenarios::time_text(state.time) + (state.at_rest ? ", at rest," : "") +
+         (run.status.end > 0.0 ? " of " + scenarios::time_text(run.status.end) : "") + "\n";
   out += "  cells     " + std::to_string(state.cells) + " (" + count_words(state.spheres, "sphere", "spheres") + ", " +
          count_words(state.shells, "shell", "shells") + ")\n";
   out += "  hash      " + state.state_hash + "\n";

@@ -2,6 +2,7 @@
 
 #include "app/verbs.h"
 #include "app/words.h"
+#include "core/shell_word.h"
 #include "results/file_io.h"
 #include "scenarios/library/library.h"
 #include "study/diagnostics.h"
@@ -42,7 +43,7 @@ Status make_new(const NewOptions& options, const Context& context) {
   std::string made;
   for (const scenarios::TemplateFile& file : one->files) made += (folder / file.path).string() + "\n";
   context.console.result(made);
-  context.console.note("next: `cd " + folder.string() + "`, `morula check study.yaml --estimate`, `morula run study.yaml`");
+  context.console.note("next: `cd " + shell_word(folder.string()) + "`, `morula check study.yaml --estimate`, `morula run study.yaml`");
   return {};
 }
 

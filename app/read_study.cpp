@@ -1,5 +1,7 @@
 #include "app/read_study.h"
 
+#include <set>
+
 #include "app/machine_memory.h"
 #include "app/words.h"
 #include "results/file_io.h"
@@ -23,10 +25,22 @@ void warn_of_memory(scenarios::Study& study, const std::string& path, const Cont
                          "fewer cells, larger voxels, or ranks on several machines");
 }
 
+/// A key that two overrides set, where the last would win without a word. A list may grow by several (`+`).
+Status set_once(const std::vector<std::string>& overrides) {
+  std::set<std::string> seen;
+  for (const std::string& one : overrides) {
+    const std::string key = one.substr(0, one.find('='));
+    if (!key.ends_with(".+") && !seen.insert(key).second)
+      return Error{ErrorKind::kInput, "'" + key + "' is given twice on the command line", "once is enough"};
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<scenarios::Study> read_study_and_tell(const std::string& path, const std::vector<std::string>& overrides, bool strict,
                                              const Context& context, scenarios::ReadOptions options) {
+  MORULA_TRY(set_once(overrides));
   options.laws = context.laws;
   options.overrides = overrides;
   options.scenario_names = scenarios::template_names();

@@ -74,8 +74,8 @@ void RunDisplay::note(const scenarios::Note& note) {
 void RunDisplay::end(const scenarios::RunSummary& summary) {
   clear();
   const scenarios::FinalState& state = summary.final_state;
-  const std::string where = scenarios::time_text(state.time) + " in " + scenarios::duration_text(summary.wall_time) + " · " +
-                            count_words(state.cells, "cell", "cells");
+  const std::string where = scenarios::time_text(state.time) + (state.at_rest ? ", at rest, in " : " in ") +
+                            scenarios::duration_text(summary.wall_time) + " · " + count_words(state.cells, "cell", "cells");
   if (summary.stopped) {
     console_.message("stopped at " + where + ", with a checkpoint\n  go on with `morula resume " + shell_word(summary.path.string()) +
                      until_ + "`\n");

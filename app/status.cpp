@@ -19,8 +19,9 @@ std::string status_text(const RunOverview& run) {
   const RunStatus& status = run.status;
   const double part = status.end > 0.0 ? 100.0 * status.time / status.end : 0.0;
   std::string out = run.path.string() + ": " + run.state_word() + "\n";
-  out += "  time   " + scenarios::time_text(status.time) + " of " + scenarios::time_text(status.end) + " (" + number_text("%.0f", part) +
-         " %)\n";
+  const bool at_rest = run.record.final_state && run.record.final_state->at_rest;
+  out += "  time   " + scenarios::time_text(status.time) + (at_rest ? ", at rest," : "") + " of " + scenarios::time_text(status.end) +
+         " (" + number_text("%.0f", part) + " %)\n";
   out += "  cells  " + std::to_string(status.cells) + " (" + count_words(status.shells, "shell", "shells") + ")\n";
   out += "  steps  " + std::to_string(status.steps) + ", the last of " + number_text("%.3g s", status.step) + "\n";
   out += "  wall   " + scenarios::duration_text(status.wall_time);

@@ -89,7 +89,8 @@ Status verify(const VerifyOptions& options, const Context& context) {
   if (options.studies && suite.name != "physics")
     return Error{ErrorKind::kInput, "--studies belongs to the suite `physics`", "`morula verify physics --studies`"};
   std::vector<std::string> ids;
-  for (const VerifiedRow& row : scenarios::rows_of(suite)) ids.push_back(row.id);
+  for (const VerifiedRow& row : scenarios::rows_of(suite))
+    if (std::ranges::find(ids, row.id) == ids.end()) ids.push_back(row.id);
   for (const std::string& id : options.only)
     if (std::ranges::find(ids, id) == ids.end())
       return Error{ErrorKind::kInput, "the suite `" + std::string(suite.name) + "` has no number '" + id + "'",

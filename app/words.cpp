@@ -31,7 +31,9 @@ Result<double> read_time(const std::string& flag, const std::string& text) {
 }
 
 Result<double> read_part(const std::string& flag, const std::string& text) {
-  return read_above_zero(flag, text, Quantity::kFraction, "3%");
+  MORULA_TRY_ASSIGN(const double part, read_above_zero(flag, text, Quantity::kFraction, "3%"));
+  if (part <= 1.0 || text.find('%') != std::string::npos) return part;
+  return Error{ErrorKind::kInput, flag + " " + text + " is a part of more than all", "for example `" + flag + " " + text + "%`"};
 }
 
 std::string bytes_words(double bytes) {

@@ -26,6 +26,7 @@ struct KeySpec {
   const char* fallback = nullptr;  ///< default as one would write it; nullptr: none
   bool required = false;
   bool optional_section = false;                          ///< of a section: its absence has a meaning, and its defaults hold only within it
+  bool not_empty = false;                                 ///< of a list: one that is given has entries
   double low = -std::numeric_limits<double>::infinity();  ///< in internal units
   double high = std::numeric_limits<double>::infinity();
   bool low_open = false, high_open = false;                     ///< the limit itself is not allowed

@@ -20,6 +20,9 @@ struct LawParameter {
   double maximum = std::numeric_limits<double>::infinity();
   std::string source;  ///< where the fallback comes from: author year, doi; or "choice of this project"
   std::string doc;     ///< one sentence
+
+  /// It has the same value in every study.
+  [[nodiscard]] bool is_fixed() const { return fallback && minimum == maximum; }
 };
 
 /// A parameter without a value of its own: the study gives it.

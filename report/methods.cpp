@@ -33,7 +33,7 @@ void add_parameters(const UsedLaw& use, std::string& out) {
 std::string used_value(const UsedLaw& use, const LawParameter& parameter) {
   for (const auto& [name, value] : use.values)
     if (name == parameter.name) return short_number(value, 6);
-  return "not set";
+  return parameter.is_fixed() ? short_number(*parameter.fallback, 6) : "not set";
 }
 
 std::string methods_text(const std::string& title, std::span<const UsedLaw> laws, const std::string& resolved) {

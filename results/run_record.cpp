@@ -107,11 +107,9 @@ std::string to_json(const RunRecord& r) {
   json["finished"] = r.finished.empty() ? Json(nullptr) : Json(r.finished);
   json["wall_time_s"] = number(r.wall_time);
   if (r.final_state) {
-    json["final"] = {{"time_s", number(r.final_state->time)},
-                     {"cells", r.final_state->cells},
-                     {"spheres", r.final_state->spheres},
-                     {"shells", r.final_state->shells},
-                     {"state_hash", r.final_state->state_hash}};
+    json["final"] = {{"time_s", number(r.final_state->time)},   {"cells", r.final_state->cells},
+                     {"spheres", r.final_state->spheres},       {"shells", r.final_state->shells},
+                     {"state_hash", r.final_state->state_hash}, {"at_rest", r.final_state->at_rest}};
   }
   if (!r.timings.empty()) {
     json["timings"] = Json::object();
@@ -160,9 +158,12 @@ Result<RunRecord> read_run_record(const std::filesystem::path& run_json) {
   r.build_type = text_at(json, "build");
   r.host = text_at(json, "host");
   if (const auto final = json.find("final"); final != json.end() && final->is_object())
-    r.final_state = FinalState{number_at(*final, "time_s", 0.0), number_at(*final, "cells", std::uint64_t{0}),
-                               number_at(*final, "spheres", std::uint64_t{0}), number_at(*final, "shells", std::uint64_t{0}),
-                               text_at(*final, "state_hash")};
+    r.final_state = FinalState{number_at(*final, "time_s", 0.0),
+                               number_at(*final, "cells", std::uint64_t{0}),
+                               number_at(*final, "spheres", std::uint64_t{0}),
+                               number_at(*final, "shells", std::uint64_t{0}),
+                               text_at(*final, "state_hash"),
+                               final->value("at_rest", Json(false)) == Json(true)};
   if (const auto timings = json.find("timings"); timings != json.end() && timings->is_object())
     for (const auto& [name, value] : timings->items())
       if (value.is_number()) r.timings.emplace_back(name, value.get<double>());

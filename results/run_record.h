@@ -29,6 +29,7 @@ struct FinalState {
   double time = 0.0;  ///< [s]
   std::uint64_t cells = 0, spheres = 0, shells = 0;
   std::string state_hash;
+  bool at_rest = false;  ///< the run ended because nothing moved any more, nor would (`time.rest`)
 };
 
 /// What run.json says: what was run, with what, where, and how it ended. Version, compiler, libraries and host are filled by complete_record.

@@ -64,7 +64,8 @@ Status read_row(std::string_view line, std::size_t number, const std::string& or
   for (std::size_t c = 0; c < fields.size(); ++c) {
     double value = 0.0;
     if (!number_of(fields[c], value))
-      return wrong(origin, number, "not a number in column '" + table.columns[c].name + "': " + std::string(fields[c]), "");
+      return wrong(origin, number, "not a number in column '" + table.columns[c].name + "': " + std::string(fields[c]),
+                   "columns are parted by commas, and numbers written as 12.5, without quotes");
     table.columns[c].values.push_back(value);
   }
   return {};

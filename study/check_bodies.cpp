@@ -1,7 +1,9 @@
 // What a body cannot do yet, or can do only outside the range of its law.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "cbm/contact_on.h"
 #include "cbm/sphere_range.h"
 #include "core/cell_id_text.h"
 #include "core/numbers/number_text.h"
@@ -228,6 +230,65 @@ void note_obstacles_whose_friction_bears(BuildContext& c) {
   }
 }
 
+/// A sphere gives way to any force: beyond that at which a plane comes to its middle, and two spheres alike to one place, nothing pushes it back.
+void check_forces_on_spheres(BuildContext& c) {
+  constexpr double kMuch = 0.5;  // of that force
+  const Model& model = c.study.model;
+  for (std::size_t k = 0; k < model.loads.size() && k < c.draft.loads.size(); ++k) {
+    const CellLoad& load = model.loads[k];
+    if (load.what->push_cell == nullptr || !may_be_sphere(c, load.type)) continue;
+    const CellType& type = model.types[load.type];
+    double strongest = load.course.empty() ? 1.0 : 0.0;
+    for (const double factor : load.course.value) strongest = std::max(strongest, std::abs(factor));
+    const double force = norm(load.what->push_cell(load, strongest)), radius = type.radius.mean;
+    const double most = 4.0 / 3.0 * type.sphere.young / (1.0 - type.sphere.poisson * type.sphere.poisson) * radius * radius;
+    if (!(force > kMuch * most)) continue;
+    c.diagnostics.warning(707, c.draft.loads[k].place,
+                          "a force of " + number_text("%.3g nN", force) + " on a sphere of '" + type.name +
+                              "': its law of contact is one of small overlaps, and at " + number_text("%.3g nN", most) +
+                              " it passes through what is in its way",
+                          "forces below " + number_text("%.2g nN", 0.1 * most) + " for this `cbm.young`, or `body: shell`");
+  }
+}
+
+/// Radius of the hollow that cells of an obstacle are in; 0: none, or of another shape [µm].
+double hollow_of(const draft::Obstacle& o) {
+  if (o.pipette.present) return o.pipette.radius.value;
+  if (o.side.value != "inside") return 0.0;
+  for (const auto* shape : {&o.sphere, &o.cylinder, &o.capsule})
+    if (shape->present) return shape->radius.value;
+  return 0.0;
+}
+
+/// Hertz's contact is one of surfaces that hardly fit each other.
+void note_hollows_that_fit_spheres(BuildContext& c) {
+  for (std::size_t i = 0; i < c.study.model.types.size(); ++i)
+    for (const auto& [name, place, o] : c.draft.geometry) {
+      const double hollow = hollow_of(o), radius = c.study.model.types[i].radius.mean;
+      if (!(hollow > radius) || !(hollow < cbm::kMostOfHollow * radius) || !may_be_sphere(c, i)) continue;
+      c.study.notes.push_back("'" + name + "' is less than twice as wide as spheres of '" + c.draft.cell_types[i].name +
+                              "', and bears them as one of twice their width does, more softly than Hertz's law: shells (`body: shell`) "
+                              "where it matters");
+    }
+}
+
+/// A trap gives cells that fluctuate a relaxation time, which steps may be too long for.
+void note_traps_of_fluctuating_cells(BuildContext& c) {
+  const Model& model = c.study.model;
+  for (const CellLoad& load : model.loads) {
+    if (load.what->hold_center == nullptr) continue;
+    const CellType& type = model.types[load.type];
+    if (!(type.fluctuations.energy > 0.0) || type.fluctuations.resolve > 0.0) continue;
+    const double time = type.medium_friction * 4.0 * std::numbers::pi * type.radius.mean * type.radius.mean / load.size;
+    const double part = 1.0 / (1.0 + model.step.max_step / (2.0 * time));
+    if (part > 0.97) continue;
+    c.study.notes.push_back("cells of '" + type.name + "' fluctuate in the trap '" + load.name + "' with a relaxation time of " +
+                            number_text("%.2g s", time) + ", and steps may be " + number_text("%.2g s", model.step.max_step) +
+                            ": their variance may come out as " + number_text("%.2g", part) +
+                            " of k_B T/K. `fluctuations: {resolve: " + number_text("%.2g s", time) + "}` has it right within 3 %");
+  }
+}
+
 /// Steps are chosen by ways on the scale of the range of contact, which is nothing to a cell of usual size and much to a small one.
 void check_ways_of_spheres(BuildContext& c) {
   constexpr double kMuch = 0.5;  // of the radius, in one step
@@ -260,6 +321,9 @@ void check_bodies(BuildContext& c) {
   note_spheres_that_do_not_roll(c);
   note_obstacles_whose_friction_bears(c);
   check_ways_of_spheres(c);
+  check_forces_on_spheres(c);
+  note_hollows_that_fit_spheres(c);
+  note_traps_of_fluctuating_cells(c);
 }
 
 }  // namespace morula::scenarios

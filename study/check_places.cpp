@@ -40,7 +40,7 @@ std::vector<double> caps_of_balls(const std::vector<Vec3d>& center, const std::v
   return caps;
 }
 
-/// Spheres overlap behind the planes in which they meet, shells do not: how much more room those take that become shells before the first step.
+/// Spheres overlap behind the planes in which they meet, shells do not: room that those who become shells before the first step take beside what pressure asks for.
 void tell_room(BuildContext& c, const std::vector<PlacedCell>& placed) {
   Tissue tissue;
   tissue.cells.declare(cell_variables(c.study.model));
@@ -60,10 +60,11 @@ void tell_room(BuildContext& c, const std::vector<PlacedCell>& placed) {
     if (order.to != BodyKind::kShell) continue;
     room += caps[order.row], volume += tissue.cells.rows[order.row].target_volume, ++count;
   }
-  if (room > 0.0)
+  constexpr double kMuch = 1e-3;  // of their volume
+  if (room > kMuch * volume)
     c.study.notes.push_back(std::to_string(count) + (count == 1 ? " cell becomes a shell" : " cells become shells") +
-                            " before the first step: as shells they take " + number_text("%.3g um^3", room) + " (" +
-                            number_text("%.2g %%", 100.0 * room / volume) + " of their volume) more room than as spheres, which overlap");
+                            " before the first step: as spheres they overlap by " + number_text("%.3g um^3", room) + " (" +
+                            number_text("%.2g %%", 100.0 * room / volume) + " of their volume), and shells do not: they take that room");
 }
 
 /// A cavity is looked into from its centre: from within a cell nothing else is seen.

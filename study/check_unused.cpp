@@ -92,6 +92,41 @@ void check_contact(BuildContext& c) {
   if (d.repulsion.is_changed()) warn(d.repulsion.place, "repulsion");
 }
 
+/// Adhesion of cells that are always spheres, by laws of contact that have none.
+void check_adhesion_of_spheres(BuildContext& c) {
+  const std::vector<CellType>& types = c.study.model.types;
+  const auto adheres = [](const CellType& type) {
+    const cbm::SphereLaw& law = *type.sphere.law;
+    return law.couple == nullptr || law.couple(type.sphere, nullptr, 0.0) != law.couple(type.sphere, nullptr, 1.0);
+  };
+  const auto has_file = [](const auto& type) { return type.content.sphere_law.value == kFittedLaw; };  // which says what it was fitted with
+  if (types.size() != c.draft.cell_types.size() || may_have_shells(c) || std::ranges::any_of(types, adheres) ||
+      std::ranges::any_of(c.draft.cell_types, has_file))
+    return;
+  for (const auto& [name, place, type] : c.draft.cell_types)
+    for (const auto& [other, at, energy] : type.adhesion)
+      if (energy.given && energy.value > 0.0)
+        return tell(c, energy.place,
+                    "'adhesion' is of contacts that adhere, and all cells are spheres with `law: " + type.sphere_law.value + "`",
+                    "`cbm: {law: jkr}`");
+}
+
+/// What spheres have with shells, and cells with obstacles, where there are none.
+void check_partners(BuildContext& c) {
+  const bool shells = may_have_shells(c) || !c.options.fitted_laws, obstacles = !c.study.model.obstacles.empty();
+  for (auto& [name, place, type] : c.draft.cell_types) {
+    const auto warn = [&c](const Given<double>& key, bool has, const char* word, const char* whom) {
+      if (key.is_changed() && !has)
+        tell(c, key.place, std::string("'") + word + "' is of contacts with " + whom + ", and there are none", "leave it away");
+    };
+    if (type.sphere_law.value != kFittedLaw) {  // else they are those of its file
+      warn(type.with_shells.of("stiffness", &cbm::WithShells::stiffness), shells, "with_shells.stiffness", "shells");
+      warn(type.with_shells.of("adhesion", &cbm::WithShells::adhesion), shells, "with_shells.adhesion", "shells");
+    }
+    warn(type.tangential_obstacle, obstacles, "obstacle_tangential", "obstacles");
+  }
+}
+
 /// A run whose cells are driven never comes to rest.
 void check_end_at_rest(BuildContext& c) {
   const Given<double>& rest = c.draft.time.rest;
@@ -129,6 +164,8 @@ void check_unused(BuildContext& c) {
   check_end_at_rest(c);
   check_exchange(c);
   check_contact(c);
+  check_adhesion_of_spheres(c);
+  check_partners(c);
   check_marks(c);
 }
 

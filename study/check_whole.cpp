@@ -90,13 +90,16 @@ void check_contact_ranges(BuildContext& c) {
     if (pair.content.range.given && pair.content.between.known()) check_range(c, pair.content.range, pair.content.between.value, "range");
 }
 
+/// Without friction across the surface that along it still holds a cell back.
+bool moves_freely(const draft::CellType& t) {
+  return t.friction_medium.known() && t.friction_medium.value == 0.0 && !(t.tangential_medium.value > 0.0);
+}
+
 void check_friction(BuildContext& c) {
-  std::size_t without = 0;
-  for (const auto& type : c.draft.cell_types)
-    if (type.content.friction_medium.known() && type.content.friction_medium.value == 0.0) ++without;
-  if (without == 0) return;
+  const auto without =
+      static_cast<std::size_t>(std::ranges::count_if(c.draft.cell_types, [](const auto& type) { return moves_freely(type.content); }));
   for (const auto& [name, place, t] : c.draft.cell_types) {
-    if (!t.friction_medium.known() || t.friction_medium.value > 0.0) continue;
+    if (!moves_freely(t)) continue;
     const std::string help = "give `friction.medium` at least 1e5 N s/m^3";
     if (without == c.draft.cell_types.size())
       c.diagnostics.error(504, t.friction_medium.place,
@@ -221,9 +224,7 @@ void check_names(BuildContext& c) {
         c.diagnostics.error(112, obstacle.place, "'" + obstacle.name + "' is a cell type and an obstacle",
                             "give the obstacle another name");
   const auto check_name = [&](const Given<std::string>& name, const char* what) {
-    if (name.known() && !is_name(name.value))
-      c.diagnostics.error(112, name.place, "'" + name.value + "' cannot be " + what,
-                          "names begin with a letter and hold letters, digits, `_` and `-`");
+    if (name.known() && !is_name(name.value)) c.diagnostics.error(112, name.place, "'" + name.value + "' cannot be " + what, kNameHelp);
   };
   check_name(c.draft.name, "the name of a study");
   for (const auto& region : c.draft.coupling.regions) check_name(region.content.name, "the name of a region");

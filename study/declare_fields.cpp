@@ -193,6 +193,7 @@ void declare_field(Section& s, draft::Field& f) {
           .doc = "The concentrations on the faces over time, as parts of those of `boundary`: straight lines between these points, "
                  "constant outside. Steps land on "
                  "the points.",
+          .not_empty = true,
           .example = "[{time: 0 h, factor: 1}, {time: 24 h, factor: 1}, {time: 25 h, factor: 0}]"},
          f.course, &declare_course_point);
   for (const auto& reaction : s.laws().reactions) declare_reaction(s, *reaction, f);

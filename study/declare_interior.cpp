@@ -52,6 +52,7 @@ void declare_osmosis_keys(Section& o, draft::Osmosis& osmosis) {
       {.name = "course",
        .doc = "`outside` over time as a factor: straight lines between these points, constant before the first and after the last. Steps "
               "land on the points.",
+       .not_empty = true,
        .example = "[{time: 10 min, factor: 1}, {time: 11 min, factor: 0.5}]"},
       osmosis.course, &declare_course_point);
   o.text({.name = "field", .doc = "A field whose concentration at the cell adds to `outside`.", .example = "sucrose"}, osmosis.field);

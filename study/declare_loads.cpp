@@ -28,6 +28,7 @@ void declare_motion_course(Section& s, draft::Obstacle& o) {
   s.list({.name = "course",
           .doc = "Way along `direction` over time, beside the velocity: straight lines between these points, at rest before the first and "
                  "after the last. Steps land on the points.",
+          .not_empty = true,
           .example = "[{time: 0 s, distance: 0 um}, {time: 5 min, distance: 2 um}]"},
          o.course, &declare_distance_point);
 }
@@ -48,6 +49,7 @@ void declare_load(Section& s, draft::Load& load) {
       {.name = "course",
        .doc = "The load over time: straight lines between these points, constant before the first and after the last. Without it: the full "
               "load from time 0 on. Steps land on the points, and a force on whole cells changes by a fortieth in one of them at most.",
+       .not_empty = true,
        .example = "[{time: 0 s, factor: 0}, {time: 1 s, factor: 1}]"},
       load.course, &declare_course_point);
 }

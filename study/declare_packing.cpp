@@ -66,6 +66,7 @@ void declare_packing(Section& s, draft::CellType& t) {
              .doc =
                  "Pressure by packing: a monotone cubic through these points (three or more, eight are good), nothing below the first, a "
                  "straight line beyond the last.",
+             .not_empty = true,
              .example = "[{packing: 8.3 %, pressure: 0 Pa}, {packing: 10.5 %, pressure: 171 Pa}, {packing: 16.8 %, pressure: 440 Pa}]"},
             t.packing_knots, &declare_knot);
       });

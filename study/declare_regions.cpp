@@ -14,7 +14,8 @@ void declare_factor_point(Section& s, draft::CoursePoint& point) {
 }
 
 void course(Section& s, std::vector<Named<draft::CoursePoint>>& points, const char* doc) {
-  s.list({.name = "course", .doc = doc, .example = "[{time: 0 s, factor: 0}, {time: 1 min, factor: 1}]"}, points, &declare_factor_point);
+  s.list({.name = "course", .doc = doc, .not_empty = true, .example = "[{time: 0 s, factor: 0}, {time: 1 min, factor: 1}]"}, points,
+         &declare_factor_point);
 }
 
 void declare_tension_region(Section& s, draft::TensionRegion& r) {

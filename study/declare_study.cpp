@@ -240,6 +240,7 @@ void declare_domain(Section& s, draft::Domain& domain) {
            "Volume of a box that is periodic along x, y and z over time: straight lines between these points, constant after the last. It "
            "begins with 1. The edges keep their ratios and the centre stays; all places go along with the box, and cells then find their "
            "shape. Steps land on the points.",
+       .not_empty = true,
        .example = "[{time: 0 s, volume: 1}, {time: 1 h, volume: 0.85}]"},
       domain.course, &declare_volume_point);
 }
@@ -298,11 +299,12 @@ void declare_limits(Section& s, draft::Limits& limits) {
 void declare_study(Section& s, draft::Study& study) {
   bool present = false;
   s.whole({.name = "schema", .doc = "Version of this file format.", .required = true, .low = 1, .high = 1, .example = "1"}, study.schema);
-  s.text({.name = "study",
-          .doc = "Name of the study: letters, digits, `_` and `-`. The run's folder is named after it.",
-          .required = true,
-          .example = "spheroid_core"},
-         study.name);
+  s.text(
+      {.name = "study",
+       .doc = "Name of the study: a letter, then letters, digits, `_` and `-`, at most 64 characters. The run's folder is named after it.",
+       .required = true,
+       .example = "spheroid_core"},
+      study.name);
   s.text(
       {.name = "title", .doc = "One line for people; shown in the report.", .fallback = "", .example = "Spheroid with a deformable core"},
       study.title);

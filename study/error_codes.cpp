@@ -317,6 +317,10 @@ constexpr ErrorCode kCodes[] = {
     {706, "planes that go through each other",
      "Two planes that face each other, and of which one moves, have no room between them any more before the study ends (warning): what is "
      "between them is pressed to nothing, and the run ends there."},
+    {707, "force beyond the law of spheres",
+     "A sphere gives way to what presses it as an elastic ball does by a little, with any overlap. By Hertz's law the middle of a sphere "
+     "of radius R comes to "
+     "a plane, and those of two alike to one place, at 4/3 E/(1 − ν²) R² (warning from half of it): nothing holds them back then."},
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/numbers/joined.h"
+#include "core/numbers/number_text.h"
 #include "study/read_section.h"
 
 namespace morula::scenarios {
@@ -69,7 +70,11 @@ std::string KeyRange::reason_against(double x) const {
 std::string range_words(const KeySpec& key) {
   const KeyRange range = range_of(key);
   const std::string unit(describe(key.quantity).internal_unit);
-  const auto bound = [&unit](double x) { return short_number(x) + (unit.empty() ? "" : " " + unit); };
+  const auto bound = [&unit](double x) {
+    const std::string text = short_number(x);
+    const bool is_whole = std::floor(x) == x && std::stod(text) != x;  // that six digits do not hold
+    return (is_whole ? number_text("%.17g", x) : text) + (unit.empty() ? "" : " " + unit);
+  };
   if (range.low == range.high) return bound(range.low);
   if (!range.low_open && !range.high_open) return "between " + bound(range.low) + " and " + bound(range.high);
   return (range.low_open ? "above " : "at least ") + bound(range.low) + " and " + (range.high_open ? "below " : "at most ") +

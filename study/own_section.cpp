@@ -38,6 +38,7 @@ void declare_key(Section& s, const OwnKey& key, const std::string& name, draft::
     case Kind::kCellIds:
       return s.one_or_more(spec, own.lists[name]);
     case Kind::kCourse:
+      spec.not_empty = true;
       return s.list(spec, own.courses[name], spec.quantity == Quantity::kLength ? &declare_distance_point : &declare_course_point);
     case Kind::kGroup:
       spec.optional_section = true;

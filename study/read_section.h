@@ -78,6 +78,8 @@ class ReadSection final : public Section {
 std::string yaml_scalar(const std::string& text);
 /// A name for cell types, fields, obstacles and studies: a letter or `_`, then letters, digits, `_` or `-`; at most 64 characters.
 bool is_name(const std::string& text);
+/// What a name is, for people.
+inline constexpr const char* kNameHelp = "names begin with a letter and hold letters, digits, `_` and `-`, at most 64 characters";
 /// A number for people: at most six digits, no trailing zeros.
 std::string short_number(double value);
 

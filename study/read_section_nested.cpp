@@ -98,9 +98,7 @@ void ReadSection::named_items(const KeySpec& key, const Container& items) {
       break;
     }
     const std::string path = path_of(key.name) + "." + item.key;
-    if (!is_name(item.key))
-      diagnostics_.error(112, item.key_place, "'" + item.key + "' cannot be a name",
-                         "names begin with a letter and hold letters, digits, `_` and `-`");
+    if (!is_name(item.key)) diagnostics_.error(112, item.key_place, "'" + item.key + "' cannot be a name", kNameHelp);
     items.add(item.key, item.key_place);
     const std::size_t index = items.size() - 1;
     KeySpec item_key = key;
@@ -116,8 +114,9 @@ void ReadSection::listed_items(const KeySpec& key, const Container& items) {
     wrong_shape(key, entry->value, "a list (`- …`)");
     return;
   }
-  if (entry->value.items.empty() && key.required)
-    diagnostics_.error(104, entry->key_place, "'" + std::string(key.name) + "' is empty", "give at least one entry");
+  if (entry->value.items.empty() && (key.required || key.not_empty))
+    diagnostics_.error(104, entry->key_place, "'" + std::string(key.name) + "' is empty",
+                       key.required ? "give at least one entry" : "give it entries, or leave it away");
   std::size_t count = 0;
   for (const Node& item : entry->value.items) {
     if (++count > kMostListed) {

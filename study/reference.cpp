@@ -115,6 +115,15 @@ bool path_matches(const std::string& path, const std::string& typed) {
   return !(b.size() == 1 && a.back() == "<name>");
 }
 
+/// Of a whole path, or null.
+const Declaration* find_path(const Declaration& from, const std::string& path) {
+  for (const Declaration& child : from.children) {
+    if (child.path == path) return &child;
+    if (const Declaration* found = find_path(child, path)) return found;
+  }
+  return nullptr;
+}
+
 void explain_matching(const Declaration& from, const std::string& typed, std::string& out) {
   for (const Declaration& child : from.children) {
     if (path_matches(child.path, typed)) out += explain_key(child);
@@ -162,7 +171,9 @@ std::optional<std::string> explain_study(const std::string& id, const Laws& laws
   }
   std::string out;
   if (!id.empty()) {
-    explain_matching(study_declarations(laws), id, out);
+    const Declaration all = study_declarations(laws);
+    const Declaration* const whole = id.find('.') == std::string::npos ? nullptr : find_path(all, id);
+    whole != nullptr ? void(out += explain_key(*whole)) : explain_matching(all, id, out);
     explain_observables(id, laws, out);
   }
   if (out.empty()) return std::nullopt;

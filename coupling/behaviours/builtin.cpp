@@ -94,7 +94,7 @@ LawInfo cut_law() {
 LawInfo dying_law() {
   const CellType type;
   return {.name = "apoptosis",
-          .title = "Shrinking and removal of a cell that has begun to die; until then it takes up and gives off substances as before",
+          .title = "Shrinking and removal of a cell that has begun to die",
           .equation = "V = V_0 e^(−t/τ_a), removed below a fraction of V_0",
           .source = kOurs,
           .parameters = {{"apoptosis_time", "time", "s", type.apoptosis_time, 1.0, 1e9, kOurs, "τ_a of the shrinking volume."},

@@ -64,7 +64,7 @@ std::shared_ptr<const DivisionAxis> fixed_axis() {
                              .title = "Along a direction of the laboratory",
                              .equation = "u = direction",
                              .source = "choice of this project",
-                             .parameters = {given_by_study("direction", "direction", "1", "Of the axis.")}},
+                             .parameters = {}},
                     .keys = {direction_key()},
                     .of = [](const CellAtDivision& cell, const Vec3d&) { return cell.type.axis_own.vector("direction"); }});
 }
@@ -75,7 +75,7 @@ std::shared_ptr<const DivisionAxis> across_direction_axis() {
                 .title = "Across a direction of the laboratory: within a layer whose normal it is",
                 .equation = "u = (I − n nᵀ/n²) r, n = direction, r uniform on the sphere",
                 .source = "choice of this project",
-                .parameters = {given_by_study("direction", "direction", "1", "Normal of the layer.")}},
+                .parameters = {}},
        .keys = {direction_key()},
        .of = [](const CellAtDivision& cell, const Vec3d& random) { return across(cell.type.axis_own.vector("direction"), random); }});
 }

@@ -13,7 +13,9 @@ std::shared_ptr<const Load> body_force_load() {
                                         .section = {.name = "body_force"},
                                         .keys = {{Kind::kVector,
                                                   {.name = "body_force",
-                                                   .doc = "A force on the whole cell; on a shell spread over its surface.",
+                                                   .doc = "A force on the whole cell; on a shell spread over its surface, along which a "
+                                                          "fluid cortex gives way: until it has, up to half an hour, the "
+                                                          "medium bears a part of it.",
                                                    .quantity = Quantity::kForce,
                                                    .example = "[0 nN, 0 nN, -1 nN]"}}},
                                         .bare = true,

@@ -200,8 +200,7 @@ std::optional<UnderstoodPlot> understand(const Study& study, const StudyPlot& p,
   for (const MeasureCall& call : out.y) calls.push_back(&call);
   out.name = p.name.given ? p.name.value : file_name(out.x ? words + "_over_" + p.x.value : words);
   if (!is_name(out.name)) {
-    diagnostics.error(112, p.name.given ? p.name.place : p.y.place, "'" + out.name + "' cannot be the name of a plot",
-                      "names begin with a letter and hold letters, digits, `_` and `-`");
+    diagnostics.error(112, p.name.given ? p.name.place : p.y.place, "'" + out.name + "' cannot be the name of a plot", kNameHelp);
     return std::nullopt;
   }
   const Quantity x = out.x ? out.x->measure.quantity : Quantity::kTime;

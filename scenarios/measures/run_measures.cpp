@@ -4,8 +4,6 @@
 #include <numbers>
 
 #include "results/exchanges.h"
-#include "results/file_io.h"
-#include "results/run_files.h"
 #include "scenarios/measures/measures.h"
 #include "scenarios/measures/verdicts.h"
 
@@ -27,8 +25,8 @@ Result<std::vector<Sample>> take_shortest_hold(FinishedRun& run, const Subject&,
   MORULA_TRY_ASSIGN(const std::vector<double>* const times, run.snapshot_times());
   if (moments.among(*times).empty()) return std::vector<Sample>{};
   const double end = (*times)[moments.among(*times).back()];
-  MORULA_TRY_ASSIGN(const std::string lines, read_file(RunFiles(run.folder()).events()));
-  std::vector<EventLine> exchanges = exchanges_of(events_of_lines(lines));
+  MORULA_TRY_ASSIGN(const std::vector<EventLine>* const events, run.events());
+  std::vector<EventLine> exchanges = exchanges_of(*events);
   std::erase_if(exchanges, [&](const EventLine& event) { return event.time == 0.0 || event.time > end; });
   if (exchanges.empty()) return std::vector<Sample>{};
   const std::vector<double> kept = times_between_exchanges(exchanges);

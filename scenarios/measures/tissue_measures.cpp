@@ -4,6 +4,7 @@
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <set>
 
 #include "core/mesh/convex_hull.h"
@@ -197,40 +198,46 @@ Measure exchange_measure() {
   return out;
 }
 
-/// The last output not after a time.
-std::size_t output_at(const std::vector<double>& times, double time) {
-  std::size_t k = 0;
-  while (k + 1 < times.size() && times[k + 1] <= time + 1e-6) ++k;
-  return k;
+/// The output at a time.
+std::optional<std::size_t> output_at(const std::vector<double>& times, double time) {
+  const auto at = std::ranges::find_if(times, [time](double t) { return std::abs(t - time) < 1e-6 * kWindow; });
+  return at == times.end() ? std::nullopt : std::optional(static_cast<std::size_t>(at - times.begin()));
 }
 
 /// What a cell goes on beyond its drift. At an output of an exchange the cell has its new body, and nobody has moved yet.
 Measure jump_measure() {
-  Measure out = of_cells("motion.beyond_drift", "way of a cell in 20 min, beyond its drift",
-                         "Way of a cell's centre in the 20 min after an output, less what it would go on as in the 20 min before.",
-                         "|x(t + w) - x(t) - (x(t) - x(t - w))|, w = 20 min", Quantity::kLength);
+  Measure out = of_cells(
+      "motion.beyond_drift", "way of a cell in 20 min, beyond its drift",
+      "Way of a cell's centre in the 20 min after an output, less what it would go on as in the 20 min before; of outputs that have "
+      "another one 20 min before and after.",
+      "|x(t + w) - x(t) - (x(t) - x(t - w))|, w = 20 min", Quantity::kLength);
   out.take = [](FinishedRun& run, const Subject& subject, const Moments& moments) -> Result<std::vector<Sample>> {
     MORULA_TRY_ASSIGN(const std::vector<double>* const times, run.snapshot_times());
     const Space& space = run.study().model.space;
     std::vector<Sample> found;
     for (const std::size_t at : moments.among(*times)) {
       const double time = (*times)[at];
-      const std::size_t before = output_at(*times, time - kWindow), after = output_at(*times, time + kWindow);
-      if (before == at || after == at) continue;
-      MORULA_TRY_ASSIGN(const auto past, run.snapshot(before));
+      const std::optional<std::size_t> before = output_at(*times, time - kWindow), after = output_at(*times, time + kWindow);
+      if (!before || !after) continue;
+      MORULA_TRY_ASSIGN(const auto past, run.snapshot(*before));
       MORULA_TRY_ASSIGN(const auto now, run.snapshot(at));
-      MORULA_TRY_ASSIGN(const auto later, run.snapshot(after));
+      MORULA_TRY_ASSIGN(const auto later, run.snapshot(*after));
       std::map<CellId, Vec3d> start, earlier;
       for (const Cell& cell : now->cells) start[cell.id] = cell.centroid;
       for (const Cell& cell : past->cells) earlier[cell.id] = cell.centroid;
-      const double ratio = (later->time - time) / (time - past->time);
       for (const Cell& cell : later->cells) {
         if (!is_meant(cell, subject) || !start.contains(cell.id) || !earlier.contains(cell.id)) continue;
-        const Vec3d drift = space.nearest_image(start[cell.id] - earlier[cell.id]) * ratio;
+        const Vec3d drift = space.nearest_image(start[cell.id] - earlier[cell.id]);
         found.push_back({time, norm(space.nearest_image(cell.centroid - start[cell.id]) - drift), cell.id.text()});
       }
     }
     return found;
+  };
+  out.fits = [](const Study& study, const Subject&) -> Status {
+    const double outputs = kWindow / study.time.output;
+    if (std::abs(outputs - std::round(outputs)) < 1e-6 && study.time.end > 2.0 * kWindow * (1.0 - 1e-6)) return {};
+    return Error{ErrorKind::kInput, "needs outputs 20 min before and after one",
+                 "`time.output` of 20 min or a part of it, and `time.end` of 40 min at least"};
   };
   return out;
 }

@@ -154,10 +154,13 @@ void add_key_numbers(const RunRecord& record, const SeriesTable& series, ReportC
   add("cell_count", "cells", "");
   add("shell_count", "shells", "");
   const double time = last("time");
-  if (std::isfinite(time)) out.push_back({"simulated", time_text(time), ""});
+  const bool at_rest = record.final_state && record.final_state->at_rest;
+  if (std::isfinite(time)) out.push_back({"simulated", time_text(time) + (at_rest ? ", then at rest" : ""), ""});
   if (record.wall_time > 0.0) {
     out.push_back({"wall time", duration_text(record.wall_time), ""});
-    if (std::isfinite(time)) out.push_back({"speed", time_text(time / record.wall_time), "of tissue per second"});
+    // a run that goes on from another one begins where that one was
+    if (std::isfinite(time))
+      out.push_back({"speed", time_text((time - series.find("time")->values.front()) / record.wall_time), "of tissue per second"});
   }
   add("spheroid_radius", "radius", "µm");
   add("mean_pressure", "mean pressure", "Pa", 1000.0);

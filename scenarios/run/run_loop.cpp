@@ -168,7 +168,8 @@ Result<RunSummary> RunLoop::go() {
     }
     if (clock.time < due) continue;
     if (Status done = output(); !done.ok()) return fail(done.error(), true);
-    if (at_rest()) break;
+    rested_ = clock.time < end_ && at_rest();
+    if (rested_) break;
     if (clock.time < checkpoint_due_ || clock.time >= end_) continue;
     if (Status done = checkpoint(); !done.ok()) return fail(done.error(), true);
   }
@@ -319,11 +320,15 @@ FinalState RunLoop::final_state() const {
   out.shells = static_cast<std::uint64_t>(progress_.shells);
   out.spheres = out.cells - out.shells;
   out.state_hash = state_hash(simulation_->tissue(), comm_).hex();
+  out.at_rest = rested_;
   return out;
 }
 
 Status RunLoop::finish(RunState state, ErrorKind kind, RunSummary& summary) {
   const bool done = state == RunState::kDone;
+  if (rested_)
+    note(Note::Kind::kNote, "no point moves faster than " + number_text("%.3g um/s", study_.time.rest) +
+                                " (`time.rest`): the run ends here, before its " + time_text(end_));
   const std::string how = done ? "" : kind == ErrorKind::kInterrupted ? "interrupted" : "stopped early";
   if (!done) note(Note::Kind::kNote, how + " at " + time_text(progress_.time));
   tell_events();

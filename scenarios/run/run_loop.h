@@ -124,6 +124,7 @@ class RunLoop {
   double growth_rate_ = 0.0;          ///< of the spheres, if nothing inhibits it [1/s]
   std::vector<ToldEvent> events_;     ///< of the tissue, not yet written
   std::map<CellId, int> promotions_;  ///< of each cell by a trigger, since the run began or was resumed
+  bool rested_ = false;               ///< at_rest() ended the run
   std::vector<std::string> awaited_;  ///< what was still to come when nothing moved, as last told
   std::vector<ToldEvent> warnings_;   ///< of the run, not yet written
   bool state_is_whole_ = true;

@@ -3,11 +3,14 @@
 #include <numbers>
 
 #include "core/ball.h"
+#include "results/run_record.h"
 #include "results/snapshot_file.h"
 #include "tests/scenarios/own_parts.h"
 
 namespace morula::scenarios::test {
 namespace {
+
+using testing::HasSubstr;
 
 class AtRest : public OwnParts {
  protected:
@@ -66,11 +69,13 @@ output: {report: false}
   const double reference = ball_volume(6.0) * std::exp(2.0 * kTension / 6.0 / kModulus);
   for (const double pressure : {-2.0, -0.3, 1.0, 3.0}) {
     const std::string name = std::to_string(pressure);
-    run_whole(changed("-0.3 kPa", name + " kPa", study), name.c_str());
+    EXPECT_TRUE(run_whole(changed("-0.3 kPa", name + " kPa", study), name.c_str()).final_state.at_rest) << name;
     const double volume = column(name.c_str(), "total_volume").back(), radius = std::cbrt(0.75 * volume / std::numbers::pi);
     EXPECT_NEAR(-kModulus * std::log(volume / reference), pressure + 2.0 * kTension / radius, 1e-3) << name;
     EXPECT_NEAR(column(name.c_str(), "shell_pressure").back(), pressure, 1e-6) << name;
     EXPECT_LE(column(name.c_str(), "time").back(), 3600.0) << name << ": it rests";
+    EXPECT_THAT(read_file(folder_.path() / name / "log.txt").value(), HasSubstr("no point moves faster than 1e-05 um/s (`time.rest`)"));
+    EXPECT_TRUE(read_run_record(folder_.path() / name / "run.json")->final_state->at_rest);
     EXPECT_LT(column(name.c_str(), "mean_way").back(), 3.0) << name << ": nodes go with the surface alone";
   }
 }

@@ -34,11 +34,9 @@ std::vector<Snapshot> snapshots_of(const std::string& time, const std::string& i
   if (!study.ok()) return ADD_FAILURE() << study.error().text(), std::vector<Snapshot>{};
   if (!test::run_into(folder.path() / "run", *study)) return {};
   const auto path = folder.path() / "run" / "results.h5";
-  const auto entries = list_snapshots(path);
-  if (!entries.ok()) return ADD_FAILURE() << entries.error().message, std::vector<Snapshot>{};
-  std::vector<Snapshot> out;
-  for (const auto& entry : *entries) out.push_back(read_snapshot(path, entry.index).value());
-  return out;
+  auto all = read_snapshots(path);
+  if (!all.ok()) return ADD_FAILURE() << all.error().message, std::vector<Snapshot>{};
+  return std::move(all).value();
 }
 
 /// fields_and_coupling.md D (c): 64 cells at rest, the one in the middle becomes a shell, and no other moves by 0.02 R.

@@ -24,15 +24,11 @@ inline std::vector<Moment> snapshots_of_run(const std::string& text) {
   EXPECT_TRUE(study.ok()) << study.error().text();
   if (!study.ok() || !run_into(folder.path() / "run", *study)) return {};
   const auto entries = list_snapshots(folder.path() / "run/results.h5");
-  EXPECT_TRUE(entries.ok());
-  if (!entries.ok()) return {};
+  auto snapshots = read_snapshots(folder.path() / "run/results.h5");
+  EXPECT_TRUE(entries.ok() && snapshots.ok());
+  if (!entries.ok() || !snapshots.ok()) return {};
   std::vector<Moment> out;
-  for (const auto& entry : *entries) {
-    auto snapshot = read_snapshot(folder.path() / "run/results.h5", entry.index);
-    EXPECT_TRUE(snapshot.ok());
-    if (!snapshot.ok()) return {};
-    out.push_back({entry.time, std::move(snapshot).value()});
-  }
+  for (const auto& entry : *entries) out.push_back({entry.time, std::move((*snapshots)[entry.index])});
   return out;
 }
 

@@ -134,6 +134,8 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"RangeTooLong", "limits: {", "contact: {range: 1.2 um}\nlimits: {",
              "more than half of the mean edge (1.82 um) of a shell of 'hepatocyte' with 162 nodes [E503]"},
         Case{"NoFriction", "medium: 1e8 N s/m^3", "medium: 0 N s/m^3", "no cell has friction with the medium"},
+        Case{"NoFrictionOfEitherDirection", "medium: 1e8 N s/m^3", "medium: 0 N s/m^3, medium_tangential: 0 N s/m^3",
+             "no cell has friction with the medium"},
         Case{"FillOutside", "radius: 40 um", "radius: 201 um", "the shape to fill reaches out of the domain [E502]"},
         Case{"TooManyCells", "count: 60", "count: 400",
              "400 cells of radius 6 um have 1.35 times the volume of the shape they fill [E506]"},

@@ -170,6 +170,48 @@ TEST(Bodies, AdhesionBeyondJkrIsToldWithItsNumbers) {
   EXPECT_THAT(test::warnings_of(test::changed("radius: 40 um}", kAsShell, with("cbm: {young: 450 Pa}"))), Not(HasSubstr("E647")));
 }
 
+/// A ball by Hertz's law lets a plane through its middle at 4/3 E/(1 − ν²) R²: 86 nN of the default 6 µm and 1.5 kPa.
+TEST(Bodies, ForcesThatGoThroughSpheresAreWarnedOf) {
+  const auto with_force = [](const char* force, const char* body) {
+    return test::warnings_of(std::string("schema: 1\nstudy: pushed\ntime: {end: 1 h}\ndomain: {size: [200 um, 200 um, 200 "
+                                         "um]}\ncell_types: {cell: {radius: 6 um, body: ") +
+                             body +
+                             "}}\ninitial: [{type: cell, at: [[0 um, 0 um, 0 um]]}]\nloads: {push: {type: cell, body_force: [0 nN, " +
+                             force + ", 0 nN], course: [{time: 0 s, factor: 0}, {time: 1 min, factor: -2}]}}\n");
+  };
+  EXPECT_THAT(with_force("30 nN", "sphere"),
+              AllOf(HasSubstr("a force of 60 nN on a sphere of 'cell'"), HasSubstr("at 85.7 nN it passes"), HasSubstr("[E707]")));
+  EXPECT_THAT(with_force("20 nN", "sphere"), Not(HasSubstr("E707")));
+  EXPECT_THAT(with_force("30 nN", "shell"), Not(HasSubstr("E707")));
+}
+
+TEST(Bodies, HollowsThatFitSpheresAreTold) {
+  const auto notes_with = [](const char* radius) {
+    return test::notes_of(
+        std::string(
+            "schema: 1\nstudy: tube\ntime: {end: 1 h}\ndomain: {size: [200 um, 200 um, 200 um]}\ncell_types: {cell: {radius: 6 um}}\n") +
+        "initial: [{type: cell, at: [[0 um, 0 um, 0 um]]}]\ngeometry: {tube: {cylinder: {from: [-50 um, 0 um, 0 um], to: [50 um, 0 um, 0 "
+        "um], radius: " +
+        radius + "}, side: inside}}\n");
+  };
+  EXPECT_THAT(notes_with("10 um"), HasSubstr("'tube' is less than twice as wide as spheres of 'cell'"));
+  EXPECT_THAT(notes_with("13 um"), Not(HasSubstr("tube")));
+}
+
+/// A trap of 10 nN/µm on a sphere of 10 µm and 2e8 N s/m³ has a relaxation time of 25 s.
+TEST(Bodies, TrapsFasterThanStepsAreToldToCellsThatFluctuate) {
+  const auto notes_with = [](const char* more) {
+    return test::notes_of(std::string("schema: 1\nstudy: noisy\ntime: {end: 1 h}\ndomain: {size: [200 um, 200 um, 200 um]}\ncell_types: "
+                                      "{cell: {radius: 10 um, friction: "
+                                      "{medium: 2e8 N s/m^3}, fluctuations: {energy: 4e-18 J") +
+                          more +
+                          "}}}\ninitial: [{type: cell, at: [[0 um, 0 um, 0 um]]}]\nloads: {tweezers: {type: cell, trap: {stiffness: 10 "
+                          "mN/m, center: [0 um, 0 um, 0 um]}}}\n");
+  };
+  EXPECT_THAT(notes_with(""), HasSubstr("fluctuate in the trap 'tweezers' with a relaxation time of 25 s"));
+  EXPECT_THAT(notes_with(", resolve: 25 s"), Not(HasSubstr("tweezers")));
+}
+
 /// Drops that wet each other wholly are two halves of one ball: of radius 2^(1/3) R, their centres 3/8 of it from the cut. Without adhesion they touch.
 TEST(Bodies, DropsRestWhereTheirBallsAreCut) {
   EXPECT_NEAR(dcm::overlap_of_doublet(0.2, 0.1), 2.0 - 0.75 * std::cbrt(2.0), 1e-12);
@@ -264,12 +306,7 @@ TEST(Bodies, ASphereIsNotMovedByAForceThatItBearsItself) {
 TEST(Bodies, WhoBecomesAShellBeforeTheFirstStepIsFoundByWhatIsKnown) {
   const auto told = [](const std::string& rule) {
     const std::string packed = test::changed("count: 10, fill: sphere, radius: 40 um", "count: 40, fill: sphere, radius: 25 um", kStudy);
-    const auto study = test::read(packed + "fields:\n  o: {diffusion: 1e-9 m^2/s, initial: 1 mM}\ncoupling: {" + rule + "}\n");
-    EXPECT_TRUE(study.ok());
-    std::string out;
-    if (study.ok())
-      for (const std::string& note : study->notes) out += note + "\n";
-    return out;
+    return test::notes_of(packed + "fields:\n  o: {diffusion: 1e-9 m^2/s, initial: 1 mM}\ncoupling: {" + rule + "}\n");
   };
   EXPECT_THAT(told("triggers: [{promote: o > 0.6 mM, demote: o < 0.5 mM}]"), HasSubstr("40 cells become shells before the first step"));
   EXPECT_THAT(told("triggers: [{promote: o < 0.6 mM, demote: o > 0.7 mM}]"), Not(HasSubstr("before the first step")));
@@ -280,12 +317,8 @@ TEST(Bodies, WhoBecomesAShellBeforeTheFirstStepIsFoundByWhatIsKnown) {
 /// 100 nN s/um^3 at 25 nm/s are 2.5 kPa.
 TEST(Bodies, FrictionOfAPlateThatComesNearIsToldSinceItsForceHasNone) {
   const auto told = [](const std::string& keys, const std::string& motion) {
-    const auto study = test::read(with(keys) + "geometry:\n  lid: {plane: {center: [0 um, 0 um, 45 um], size: 40 um, normal: [0, 0, -1]}" +
-                                  motion + "}\n");
-    EXPECT_TRUE(study.ok()) << study.error().text();
-    std::string out;
-    for (const std::string& note : study->notes) out += note + "\n";
-    return out;
+    return test::notes_of(with(keys) + "geometry:\n  lid: {plane: {center: [0 um, 0 um, 45 um], size: 40 um, normal: [0, 0, -1]}" + motion +
+                          "}\n");
   };
   const std::string moves = ", motion: {velocity: [0 um/h, 0 um/h, -90 um/h]}";
   EXPECT_THAT(told("", moves),

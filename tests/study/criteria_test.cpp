@@ -150,6 +150,11 @@ TEST(Criteria, AreTakenOfWhatTheMeasureIsTakenOf) {
   EXPECT_THAT(spheres.error().text(),
               AllOf(HasSubstr("'least_angle' of left needs shells, and these cells are always spheres"), HasSubstr("E412")));
   EXPECT_THAT(message_of("measure: way(push), above: 3 um"), HasSubstr("needs a grip with a `way`"));
+  const std::string drift = criterion("measure: motion.beyond_drift(left), below: 3 um");
+  EXPECT_TRUE(read(drift, with_criteria()).ok());
+  const auto between = read(changed("output: 10 min", "output: 15 min", drift), with_criteria());
+  ASSERT_FALSE(between.ok());
+  EXPECT_THAT(between.error().text(), HasSubstr("needs outputs 20 min before and after one"));
   EXPECT_THAT(message_of("measure: volume, of: {tipe: left}, above: 3 um^3"), AllOf(HasSubstr("unknown key 'tipe'"), HasSubstr("E101")));
 }
 

@@ -81,6 +81,18 @@ inline std::string warnings_of(const std::string& text, const ReadOptions& optio
   return study->warnings.text();
 }
 
+/// What a study that must be accepted tells beside its warnings, a line each.
+inline std::string notes_of(const std::string& text) {
+  const auto study = read(text);
+  if (!study.ok()) {
+    ADD_FAILURE() << study.error().text();
+    return "";
+  }
+  std::string out;
+  for (const std::string& note : study->notes) out += note + "\n";
+  return out;
+}
+
 /// A folder of its own for a test, removed at its end.
 class Folder {
  public:

@@ -171,6 +171,23 @@ TEST(UnusedKeys, OfSurfacesWhereAllAreSpheres) {
   EXPECT_EQ(warnings("{a: {body: shell}}", "contact: {points: 4, repulsion: 50 kPa/um}\n"), "");
 }
 
+TEST(UnusedKeys, AdhesionOfSpheresWhoseLawHasNone) {
+  EXPECT_THAT(warnings("{a: {cbm: {law: hertz}, adhesion: {a: 1e-4 J/m^2}}}"),
+              HasSubstr("all cells are spheres with `law: hertz`: it has no effect"));
+  EXPECT_EQ(warnings("{a: {cbm: {law: hertz}, adhesion: {a: 0 J/m^2}}}"), "");
+  EXPECT_EQ(warnings("{a: {cbm: {law: hertz}, body: shell, adhesion: {a: 1e-4 J/m^2}}}"), "");
+  EXPECT_EQ(warnings("{a: {adhesion: {a: 1e-4 J/m^2}}}"), "");
+}
+
+TEST(UnusedKeys, OfContactsWithWhatIsNotThere) {
+  const std::string plane = "geometry: {floor: {plane: {center: [0 um, 0 um, -6 um], normal: [0, 0, 1], size: 100 um}}}\n";
+  const std::string rubs = "friction: {obstacle_tangential: 1e10 N s/m^3}", stiff = "cbm: {with_shells: {stiffness: 0.5}}";
+  EXPECT_THAT(warnings("{a: {" + rubs + "}}"), HasSubstr("'obstacle_tangential' is of contacts with obstacles, and there are none"));
+  EXPECT_EQ(warnings("{a: {" + rubs + "}}", plane), "");
+  EXPECT_THAT(warnings("{a: {" + stiff + "}}"), HasSubstr("'with_shells.stiffness' is of contacts with shells, and there are none"));
+  EXPECT_EQ(warnings("{a: {" + stiff + ", body: shell}}"), "");
+}
+
 TEST(UnusedKeys, OfMarksAndCavities) {
   const std::string plane = "geometry: {floor: {plane: {center: [0 um, 0 um, -6 um], normal: [0, 0, 1], size: 100 um}}}\n";
   const std::string touched = "marks: {wet: {types: [a], touched_by: floor, when: ";
@@ -188,6 +205,11 @@ TEST(UnusedKeys, OfCoursesThatBeginWhenTheRunHasEnded) {
   };
   EXPECT_THAT(load("[{time: 2 h, factor: 0}, {time: 3 h, factor: 1}]"), HasSubstr("this course begins at 2 h, and the run ends at 1 h"));
   EXPECT_EQ(load("[{time: 0 h, factor: 0}, {time: 3 h, factor: 1}]"), "");
+}
+
+TEST(UnusedKeys, CoursesWithoutAPointAreRefused) {
+  const std::string load = "loads: {pull: {type: a, body_force: [1 nN, 0 nN, 0 nN], course: []}}\n";
+  EXPECT_THAT(errors_of(study_of("{a: {}}", load)), AllOf(HasSubstr("'course' is empty"), HasSubstr("[E104]")));
 }
 
 TEST(UnusedKeys, AgesBesideThePhasesOfATable) {

@@ -80,6 +80,7 @@ TEST_F(Compare, JudgesWhatIsAsked) {
   EXPECT_EQ(far.exit_code, 5) << far.all();
   EXPECT_THAT(far.err, HasSubstr("1 difference of 2 not shown to be within 3%"));
   EXPECT_THAT(far.out, testing::AllOf(HasSubstr("beyond 3 %"), HasSubstr("comparisons/a_b/compare.html")));
+  EXPECT_THAT(with({"--only", "cell_count"}).out, HasSubstr("comparisons/a_b-2/compare.html"));  // nothing is overwritten
   EXPECT_EQ(with({"--only", "total_volume", "--within", "60%", "--json"}).exit_code, 0);
   EXPECT_EQ(with({"--only", "total_volume", "--within", "60%", "--every", "--from", "5min", "--json"}).exit_code, 0);
   const Outcome spread = compare({"a=s1,s3", "b=s2", "--only", "total_volume", "--within", "0.001%"});  // three draws of one study
@@ -106,6 +107,8 @@ TEST_F(Compare, RefusesWhatCannotBeCompared) {
   refused({"s1", "t1", "--only", "pressur"}, 2, "not all runs have a column 'pressur'");
   refused({"s1", "t1", "--within", "5 um"}, 2, "--within");
   refused({"s1", "t1", "--within", "0"}, 2, "must be above 0");
+  refused({"s1", "t1", "--within", "3"}, 2, "for example `--within 3%`");
+  refused({"s1", "t1", "--out", "s1"}, 3, "exists already");
   run("again", "1", {"title=again"});
   refused({"a=s1,again", "b=t1"}, 2, "have the seed 1");
   run("late", "1", {"time.output=7 min", "time.end=7 min"});

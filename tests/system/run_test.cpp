@@ -200,6 +200,20 @@ TEST(Resume, WithAChangeMakesANewRunWithItsParent) {
   EXPECT_EQ(wrong.exit_code, 2) << wrong.all();
 }
 
+TEST(Run, RefusesAKeyThatIsGivenTwice) {
+  const TestFolder folder;
+  folder.write("study.yaml", sphere_study());
+  const auto told = [&](const std::vector<std::string>& arguments) {
+    const Outcome outcome = run_morula(arguments, folder.path());
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.all();
+    return outcome.all();
+  };
+  EXPECT_THAT(told({"run", "study.yaml", "time.end=1 h", "time.end=2 h"}),
+              testing::HasSubstr("'time.end' is given twice on the command line"));
+  EXPECT_THAT(told({"run", "study.yaml", "--seed", "5", "seed=6"}), testing::HasSubstr("'seed' is given twice"));
+  EXPECT_THAT(told({"run", "study.yaml", "--out", ""}), testing::HasSubstr("it is empty"));
+}
+
 /// What the checkpoint knows by number or has on a grid cannot become something else.
 TEST(Resume, RefusesChangesThatTheCheckpointCannotFollow) {
   const TestFolder folder;
