@@ -141,7 +141,8 @@ void find_four_cells(int seed, FourCells& out) {
   }
   ASSERT_GT(simulation.values().contact_area[0], 50.0);
   std::vector<double> areas, distances;
-  for (const SurfacePair& pair : simulation.mechanics().contacts().pairs()) areas.push_back(pair.area);
+  for (const SurfacePair& pair : simulation.mechanics().contacts().pairs())
+    if (!pair.with_itself()) areas.push_back(pair.area);
   const dcm::Shells& shells = simulation.tissue().shells;
   for (std::size_t a = 0; a < shells.size(); ++a)
     for (std::size_t b = a + 1; b < shells.size(); ++b)
