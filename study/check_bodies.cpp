@@ -8,6 +8,7 @@
 #include "core/cell_id_text.h"
 #include "core/numbers/number_text.h"
 #include "coupling/mechanics/workspace.h"
+#include "coupling/regions/outside_law.h"
 #include "dcm/drops.h"
 #include "study/build.h"
 #include "study/declare.h"
@@ -251,6 +252,26 @@ void check_forces_on_spheres(BuildContext& c) {
   }
 }
 
+/// Spheres sink deeper into walls than shells, of which more than half of those in a mould have one: they take more room by growing on than they bear the stop of growth
+/// for (decision 0025), and at 0.4 of their modulus all moulds that were tried ended beyond the curve of packing.
+void check_growth_in_moulds(BuildContext& c) {
+  constexpr double kMost = 0.3;  // of the modulus
+  const Model& model = c.study.model;
+  const auto mould = std::ranges::find(c.draft.geometry, std::string("inside"), [](const auto& o) { return o.content.side.value; });
+  const bool leave = std::ranges::any_of(model.swaps.triggers, [](const Trigger& t) { return t.value == outside_law_value(); });
+  if (mould == c.draft.geometry.end() || leave) return;
+  for (std::size_t i = 0; i < model.types.size(); ++i) {
+    const auto& [name, place, t] = c.draft.cell_types[i];
+    const double modulus = t.packing_bulk_modulus.value >= 0.0 ? t.packing_bulk_modulus.value : t.bulk_modulus.value;
+    if (!may_divide(c, i) || !may_be_sphere(c, i) || !(model.types[i].inhibit_pressure > kMost * modulus)) continue;
+    c.diagnostics.warning(708, t.pressure_above.given ? t.pressure_above.place : mould->place,
+                          "spheres of '" + name + "' grow until they bear " + t.pressure_above.text + ", and in a full mould ('" +
+                              mould->name + "') they are packed beyond their law before: they sink into its wall, and the run may end",
+                          "`inhibit_growth: {pressure_above: " + number_text("%.3g Pa", 1e3 * 0.2 * modulus) +
+                              "}`, or shells where the law of spheres ends (`coupling: {triggers: [{outside_law: 1}]}`)");
+  }
+}
+
 /// Radius of the hollow that cells of an obstacle are in; 0: none, or of another shape [µm].
 double hollow_of(const draft::Obstacle& o) {
   if (o.pipette.present) return o.pipette.radius.value;
@@ -322,6 +343,7 @@ void check_bodies(BuildContext& c) {
   note_obstacles_whose_friction_bears(c);
   check_ways_of_spheres(c);
   check_forces_on_spheres(c);
+  check_growth_in_moulds(c);
   note_hollows_that_fit_spheres(c);
   note_traps_of_fluctuating_cells(c);
 }

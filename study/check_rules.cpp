@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/numbers/number_text.h"
 #include "coupling/regions/region.h"
 #include "fields/reaction.h"
 #include "study/build.h"
@@ -82,7 +83,15 @@ void check_levels(BuildContext& c) {
   }
 }
 
-/// What cells answer to in a field that gives no cause for it.
+/// Whether cells of a type make some of a field.
+bool makes(const fields::FieldSpec& field, std::size_t type) {
+  return std::ranges::any_of(field.reactions, [type](const fields::FieldReaction& one) {
+    return one.what->where == fields::Reaction::Where::kCells && one.type == type &&
+           one.what->taken(one.what->coefficients(one.values), 0.0) < 0.0;
+  });
+}
+
+/// What cells answer to in a field that gives no cause for it, or another one.
 void check_answers(BuildContext& c) {
   for (std::size_t i = 0; i < c.study.model.types.size(); ++i) {
     const CellType& type = c.study.model.types[i];
@@ -99,6 +108,12 @@ void check_answers(BuildContext& c) {
     }
     if (const int sensed = type.migration.sensed_field(); sensed >= 0) {
       const fields::FieldSpec& field = c.study.model.fields[static_cast<std::size_t>(sensed)];
+      if (makes(field, i) && field.voxel > type.radius.mean)
+        c.diagnostics.warning(512, c.draft.fields[static_cast<std::size_t>(sensed)].place,
+                              "cells of '" + type.name + "' go by '" + field.name + "', which they make, and its voxels of " +
+                                  number_text("%.3g um", field.voxel) +
+                                  " are wider than their radius: each is drawn to the middle of its voxel by its own",
+                              "`voxel: " + number_text("%.2g um", 0.8 * type.radius.mean) + "`");
       const Levels has = levels_of(field, c.study.model.space);
       if (has.most <= has.least)
         tell(c, d.migration_law.place,

@@ -82,7 +82,10 @@ constexpr ErrorCode kCodes[] = {
     {511, "domain too small",
      "With periodic faces a cell would touch its own image, or a pressed shell the same neighbour on both sides. Of two cells the nearest "
      "images meet."},
-    {512, "field cannot be resolved", "The voxel size gives too many or too few voxels."},
+    {512, "field cannot be resolved",
+     "The voxel size gives too many or too few voxels; or cells go by a field that they make, of which a grid of voxels wider than their "
+     "radius draws each to the middle of its "
+     "own (warning)."},
     {513, "elasticity of the area counted twice",
      "Two laws of one shell resist changes of its area. Their moduli add: say `area: {on_top: true}` where that is meant."},
     {514, "Poisson ratio outside the law",
@@ -321,6 +324,10 @@ constexpr ErrorCode kCodes[] = {
      "A sphere gives way to what presses it as an elastic ball does by a little, with any overlap. By Hertz's law the middle of a sphere "
      "of radius R comes to "
      "a plane, and those of two alike to one place, at 4/3 E/(1 − ν²) R² (warning from half of it): nothing holds them back then."},
+    {708, "growth beyond the law of spheres",
+     "In a full mould spheres sink into the wall, and take more room than their growth is stopped for: at 0.2 of their modulus a fifth "
+     "more cells than shells are, at 0.4 more "
+     "than half, and the run ends beyond the curve of packing (warning from 0.3)."},
 };
 
 }  // namespace

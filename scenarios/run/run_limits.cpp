@@ -74,11 +74,16 @@ Status RunLoop::check_limits(const Measures& m) {
 /// The pressure of packing holds within the range it was calibrated in (cbm.md §3).
 Status RunLoop::check_packing(const Measures& m) {
   constexpr double kMost = 1.5, kPartBeyond = 0.01;
-  if (m.packing > kMost && !simulation_->tissue().clock.capped)
+  if (m.packing > kMost && !simulation_->tissue().clock.capped) {
+    const Model& model = study_.model;
+    const bool grow = std::ranges::any_of(model.types, [](const CellType& type) { return type.cycles; });
     return Error{ErrorKind::kPhysics,
                  "cell " + m.packing_cell.text() + " is packed " + number_text("%.3g", m.packing) +
                      " times as tightly as the end of its packing curve at " + time_text(m.time),
-                 "knots of `cbm.packing` for such compressions, stiffer spheres, or less load"};
+                 std::string("shells where the law of spheres ends (`coupling: {triggers: [{outside_law: 1}]}`), ") +
+                     (grow ? "growth that stops at a lower pressure (`inhibit_growth: {pressure_above: 500 Pa}`), " : "") +
+                     (model.loads.empty() ? "" : "less load, ") + "or knots of `cbm.packing` for such compressions"};
+  }
   if (static_cast<double>(m.packed_beyond) > kPartBeyond * static_cast<double>(m.spheres))
     warn_near_limit(kPacking, std::to_string(m.packed_beyond) + " of " + std::to_string(m.spheres) +
                                   " spheres are packed more tightly than their packing curve is calibrated for");

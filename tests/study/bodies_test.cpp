@@ -185,6 +185,25 @@ TEST(Bodies, ForcesThatGoThroughSpheresAreWarnedOf) {
   EXPECT_THAT(with_force("30 nN", "shell"), Not(HasSubstr("E707")));
 }
 
+/// 0.4 of the default modulus of 2.5 kPa; 500 Pa are 0.2 of it.
+TEST(Bodies, GrowthOfSpheresInMouldsIsWarnedOfWhereItGoesOnForLong) {
+  const auto with_growth = [](const std::string& type, const std::string& more = "") {
+    return test::warnings_of(
+        "schema: 1\nstudy: mould\ntime: {end: 72 h}\ndomain: {size: [200 um, 200 um, 200 um]}\ncell_types: {w: {radius: 5 um, cycle: "
+        "{duration: 18 h}" +
+        type +
+        "}}\ngeometry: {mould: {sphere: {radius: 25 um}, side: inside"
+        "}}\ninitial: [{type: w, at: [[0 um, 0 um, 0 um]]}]\n" +
+        more);
+  };
+  const std::string stop = ", inhibit_growth: {pressure_above: 500 Pa}";
+  EXPECT_THAT(with_growth(""), AllOf(HasSubstr("spheres of 'w' grow until they bear 1 kPa, and in a full mould ('mould')"),
+                                     HasSubstr("[E708]"), HasSubstr("pressure_above: 500 Pa")));
+  EXPECT_THAT(with_growth(stop), Not(HasSubstr("E708")));
+  EXPECT_THAT(with_growth(", body: shell"), Not(HasSubstr("E708")));
+  EXPECT_THAT(with_growth("", "coupling: {triggers: [{outside_law: 1}]}\n"), Not(HasSubstr("E708")));
+}
+
 TEST(Bodies, HollowsThatFitSpheresAreTold) {
   const auto notes_with = [](const char* radius) {
     return test::notes_of(

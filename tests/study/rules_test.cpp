@@ -69,6 +69,16 @@ TEST(Rules, OfDeathAndMigrationInAFieldThatGivesNoCauseAreTold) {
   EXPECT_THAT(told("", crawls, kConsumed), Not(HasSubstr("E694")));
 }
 
+/// Cells of 6 µm and voxels of 20 µm.
+TEST(Rules, OfMigrationByWhatCellsMakeThemselvesAreTold) {
+  const std::string crawls = ", migration: {law: chemotaxis, field: oxygen, speed: 10 um/h}";
+  const std::string made = ", boundary: {all: 0.2 mM}, secretion: {cell: {rate: 10 amol/s}}";
+  EXPECT_THAT(told("", crawls, made),
+              AllOf(HasSubstr("each is drawn to the middle of its voxel by its own"), HasSubstr("[E512]"), HasSubstr("`voxel: 4.8 um`")));
+  EXPECT_THAT(told("", crawls, kConsumed), Not(HasSubstr("E512")));
+  EXPECT_THAT(told("", "", made), Not(HasSubstr("E512")));
+}
+
 TEST(Rules, BehindARegionThatHoldsEveryCellAreTold) {
   const std::string all = "{name: all, shape: everything, as: sphere}", core = "{name: core, shape: sphere, radius: 10 um, as: shell}";
   EXPECT_THAT(told("coupling: {regions: [" + all + ", " + core + "]}\n"),
