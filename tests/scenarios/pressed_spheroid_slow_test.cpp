@@ -1,6 +1,9 @@
-// A spheroid that two plates press: with shells where the law of spheres ends (`outside_law`), its shape is that of shells alone, and its pressure comes near. 5 % are asked
-// of both. Of the pressure 15 to 31 % are missing, where spheres alone miss a third to half: where the plates rest, shells go on to bear what spheres give way to.
+// A spheroid that two plates press: with shells where the law of spheres ends (`outside_law`), its shape is that of shells alone. 5 % are asked of it, which are met, and of the
+// pressure, of which 42 to 45 % are missing, and 38 to 40 % of the force on the plates, as with spheres alone: where the plates rest, shells go on to bear what spheres give way to.
+// (Before decision 0054 was mended the hybrid told a pressure of 0.77 of that of shells, by a tension of adhesion that is none of what presses it; the force was the same.)
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 #include "results/series_reader.h"
 #include "scenarios/library/library.h"
@@ -15,6 +18,7 @@ struct Pressed {
   double pressure = 0.0;  ///< [kPa]
   double radius = 0.0;    ///< of gyration, as a ball [µm]
   double shells = 0.0;
+  double force = 0.0;  ///< on the upper plate [nN]
 };
 
 Pressed pressed(std::vector<std::string> overrides) {
@@ -35,7 +39,7 @@ Pressed pressed(std::vector<std::string> overrides) {
     for (std::size_t i = series->rows() - kLast; i < series->rows(); ++i) sum += series->find(name)->values[i];
     return sum / kLast;
   };
-  return {mean("mean_pressure"), mean("spheroid_radius"), mean("shell_count")};
+  return {mean("mean_pressure"), mean("spheroid_radius"), mean("shell_count"), std::abs(mean("force_z_upper"))};
 }
 
 class PressedSpheroid : public testing::TestWithParam<int> {};
@@ -49,7 +53,8 @@ TEST_P(PressedSpheroid, HasTheShapeOfShellsWithLessThanHalfOfThem) {
   EXPECT_GT(hybrid.shells, 10.0);
   EXPECT_GT(shells.pressure, 5e-3);
   EXPECT_NEAR(hybrid.radius / shells.radius, 1.0, 0.035);
-  EXPECT_NEAR(hybrid.pressure / shells.pressure, 1.0, 0.35);
+  EXPECT_NEAR(hybrid.pressure / shells.pressure, 1.0, 0.48);  // what is today, rounded up, of both
+  EXPECT_NEAR(hybrid.force / shells.force, 1.0, 0.43);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, PressedSpheroid, testing::Values(1, 2, 3));
