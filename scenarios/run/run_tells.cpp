@@ -77,7 +77,7 @@ Status RunLoop::tell_what_is_lost() {
 
 /// What happened since the last output, counted: `14 promotions (region core)`.
 void RunLoop::tell_events() {
-  constexpr double kAll = 0.99;
+  constexpr double kAll = 0.99, kNothing = 0.01;  // of the room
   struct Exchanges {
     std::size_t count = 0;
     double room = 0.0, later = 0.0, volume = 0.0;  // [µm³]
@@ -97,9 +97,9 @@ void RunLoop::tell_events() {
     const std::string room = number_text("%.3g um^3", std::abs(all.room)) + " (" +
                              number_text("%.2g %%", 100.0 * std::abs(all.room) / all.volume) + " of " + (one ? "its" : "their") +
                              " volume) " + (up ? "more" : "less") + " room than before" +
-                             (all.later > kAll * all.room ? ", little by little"
-                              : all.later > 0.0           ? ", " + number_text("%.3g um^3", all.later) + " of it little by little"
-                                                          : "");
+                             (all.later > kAll * all.room       ? ", little by little"
+                              : all.later > kNothing * all.room ? ", " + number_text("%.3g um^3", all.later) + " of it little by little"
+                                                                : "");
     note(Note::Kind::kNote, std::to_string(all.count) + became + what.second + ")" +
                                 (all.room != 0.0 && all.volume > 0.0 ? (one ? "; it takes " : "; they take ") + room : ""));
   }
