@@ -24,6 +24,8 @@ class Codes {
   std::vector<std::uint32_t> code_;
 };
 
+std::ptrdiff_t at(std::size_t k) { return static_cast<std::ptrdiff_t>(k); }
+
 /// What one thread does: a stretch of the old pairs.
 struct Stretch {
   std::size_t first = 0, last = 0, end = 0;  ///< old pairs; where those that stay end, beginning with `first`
@@ -31,7 +33,7 @@ struct Stretch {
   std::vector<std::uint32_t> of_fresh;  ///< of those that stay, counted from `first`
 };
 
-/// Renumbers the pairs of a stretch where they are, closing the gaps. watched: the first of all that lies in the stretch.
+/// Renumbers the pairs of a stretch where they are, closing the gaps; `watched_now`: where those of `watched` that lie in it are then, counted from its first.
 void renumber(std::vector<SpherePair>& pairs, const Codes& codes, std::span<const std::uint32_t> watched,
               std::span<std::uint32_t> watched_now, Stretch& s) {
   auto watch = static_cast<std::size_t>(std::ranges::lower_bound(watched, s.first) - watched.begin());
@@ -52,6 +54,38 @@ void renumber(std::vector<SpherePair>& pairs, const Codes& codes, std::span<cons
   s.end = to;
 }
 
+/// Moves the stretches up to each other; what they have told counts from the first pair on then.
+void close_up(std::vector<SpherePair>& pairs, std::span<const Stretch> stretches, std::span<const std::uint32_t> watched,
+              MergedPairs& out) {
+  std::size_t kept = 0, watch = 0;
+  for (const Stretch& s : stretches) {
+    for (; watch < watched.size() && watched[watch] < s.last; ++watch)
+      if (out.watched[watch] != MergedPairs::kGone) out.watched[watch] += static_cast<std::uint32_t>(kept);
+    for (const std::uint32_t k : s.of_fresh) out.of_fresh.push_back(static_cast<std::uint32_t>(kept + k));
+    out.dropped.insert(out.dropped.end(), s.dropped.begin(), s.dropped.end());
+    if (kept != s.first) std::copy(pairs.begin() + at(s.first), pairs.begin() + at(s.end), pairs.begin() + at(kept));
+    kept += s.end - s.first;
+  }
+  pairs.resize(kept);
+}
+
+/// Puts pairs among those that stay, from behind. Gives how many of these come before each of them.
+template <class Before>
+std::vector<std::size_t> put_among(std::vector<SpherePair>& pairs, std::span<const SpherePair> found, Before&& comes_before) {
+  std::vector<std::size_t> before;
+  for (const SpherePair& pair : found)
+    before.push_back(static_cast<std::size_t>(std::lower_bound(pairs.begin(), pairs.end(), pair, comes_before) - pairs.begin()));
+  std::size_t end = pairs.size();
+  const std::size_t all = end + found.size();
+  if (all > pairs.capacity()) pairs.reserve(all + all / 64);  // no growth by doubling
+  pairs.resize(all);
+  for (std::size_t f = found.size(); f-- > 0; end = before[f]) {
+    std::move_backward(pairs.begin() + at(before[f]), pairs.begin() + at(end), pairs.begin() + at(end + f + 1));
+    pairs[before[f] + f] = found[f];
+  }
+  return before;
+}
+
 }  // namespace
 
 MergedPairs merge_sphere_pairs(std::vector<SpherePair>& pairs, const SphereRenumbering& number, std::span<const SphereNeighbours> found,
@@ -67,43 +101,19 @@ MergedPairs merge_sphere_pairs(std::vector<SpherePair>& pairs, const SphereRenum
     stretches[t].last = pairs.size() * (t + 1) / count;
     renumber(pairs, codes, watched, out.watched, stretches[t]);
   });
-  // The stretches close up.
-  std::size_t kept = 0, watch = 0;
-  for (const Stretch& s : stretches) {
-    for (; watch < watched.size() && watched[watch] < s.last; ++watch)
-      if (out.watched[watch] != MergedPairs::kGone) out.watched[watch] += static_cast<std::uint32_t>(kept);
-    for (const std::uint32_t k : s.of_fresh) out.of_fresh.push_back(static_cast<std::uint32_t>(kept + k));
-    out.dropped.insert(out.dropped.end(), s.dropped.begin(), s.dropped.end());
-    if (kept != s.first)
-      std::copy(pairs.begin() + static_cast<std::ptrdiff_t>(s.first), pairs.begin() + static_cast<std::ptrdiff_t>(s.end),
-                pairs.begin() + static_cast<std::ptrdiff_t>(kept));
-    kept += s.end - s.first;
-  }
-  // What was found comes in, from behind.
-  std::vector<std::size_t> before(found.size());  // of the pairs that stay, how many come before it
-  for (std::size_t f = 0; f < found.size(); ++f)
-    before[f] = static_cast<std::size_t>(
-        std::lower_bound(pairs.begin(), pairs.begin() + static_cast<std::ptrdiff_t>(kept), pair_of(found[f], first_sphere),
-                         [&](const SpherePair& p, const SpherePair& q) { return comes_before(spheres, p, q); }) -
-        pairs.begin());
-  const std::size_t all = kept + found.size();
-  if (all > pairs.capacity()) pairs.reserve(all + all / 64);  // no growth by doubling
-  pairs.resize(all);
-  std::size_t end = kept;
-  for (std::size_t f = found.size(); f-- > 0; end = before[f]) {
-    std::move_backward(pairs.begin() + static_cast<std::ptrdiff_t>(before[f]), pairs.begin() + static_cast<std::ptrdiff_t>(end),
-                       pairs.begin() + static_cast<std::ptrdiff_t>(end + f + 1));
-    pairs[before[f] + f] = pair_of(found[f], first_sphere);
-  }
-  const auto shift = [&](std::uint32_t& k) {  // by those that were found before it
+  close_up(pairs, stretches, watched, out);
+  std::vector<SpherePair> come;
+  for (const SphereNeighbours& one : found) come.push_back(pair_of(one, first_sphere));
+  const std::vector<std::size_t> before =
+      put_among(pairs, come, [&](const SpherePair& p, const SpherePair& q) { return comes_before(spheres, p, q); });
+  const auto shift = [&](std::uint32_t& k) {  // by those that came in before it
     k += static_cast<std::uint32_t>(std::ranges::upper_bound(before, k) - before.begin());
   };
   for (std::uint32_t& k : out.watched)
     if (k != MergedPairs::kGone) shift(k);
   for (std::uint32_t& k : out.of_fresh) shift(k);
-  for (std::size_t f = 0; f < found.size(); ++f)
-    if (const SpherePair pair = pairs[before[f] + f]; (fresh[pair.a] | fresh[pair.b]) != 0)
-      out.of_fresh.push_back(static_cast<std::uint32_t>(before[f] + f));
+  for (std::size_t f = 0; f < come.size(); ++f)
+    if ((fresh[come[f].a] | fresh[come[f].b]) != 0) out.of_fresh.push_back(static_cast<std::uint32_t>(before[f] + f));
   std::ranges::sort(out.of_fresh);
   return out;
 }
