@@ -93,9 +93,7 @@ Status compare(const CompareOptions& options, const Context& context) {
   if (!options.from.empty()) {
     MORULA_TRY_ASSIGN(request.from, read_time("--from", options.from));
   }
-  if (std::error_code error; !options.out.empty() && fs::exists(options.out, error))
-    return Error{ErrorKind::kFile, "'" + options.out + "' exists already, and nothing is overwritten",
-                 "name another folder with `--out DIR`"};
+  if (!options.out.empty()) MORULA_TRY(must_be_new(options.out));
   MORULA_TRY_ASSIGN(const std::vector<RunGroup> groups, scenarios::read_groups(options.runs));
   MORULA_TRY_ASSIGN(const Comparison comparison, scenarios::compare(groups, request));
   fs::path page;

@@ -22,10 +22,7 @@ Status export_results(const ExportOptions& options, const Context& context) {
     MORULA_TRY_ASSIGN(range.to, read_time("--to", options.to));
   }
   const fs::path folder = options.out.empty() ? run.path() / options.format : fs::path(options.out);
-  std::error_code error;
-  if (fs::exists(folder, error))
-    return Error{ErrorKind::kFile, "'" + folder.string() + "' exists already, and nothing is overwritten",
-                 "name another folder with `--out DIR`"};
+  MORULA_TRY(must_be_new(folder));
   if (options.format == "lineage") {
     if (options.every != 1 || !options.from.empty() || !options.to.empty())
       return Error{ErrorKind::kInput, "a lineage is that of the whole run", "leave out `--every`, `--from` and `--to`"};

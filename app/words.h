@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,9 @@ Result<double> read_time(const std::string& flag, const std::string& text);
 
 /// A part typed on the command line, as `3%` or `0.03`. kInput likewise.
 Result<double> read_part(const std::string& flag, const std::string& text);
+
+/// kFile where a folder that a command is about to make is there already.
+Status must_be_new(const std::filesystem::path& folder);
 
 /// Bytes: "812 MB".
 [[nodiscard]] std::string bytes_words(double bytes);

@@ -116,6 +116,8 @@ std::vector<std::size_t> origins_of(const draft::Study& draft, std::size_t type)
 int find_field(BuildContext& context, const std::string& name, const Place& place);
 /// Whether cells of any type may.
 bool may_have_shells(const BuildContext& context);
+/// K_V of the ideal filled cell: that of packing, or of the cell as a shell (`bulk_modulus: shell`) [kPa].
+double packing_modulus(const draft::CellType& type);
 /// Note a file the study refers to; `written` is replaced by the place of its copy, for the resolved study.
 std::string add_input_file(BuildContext& context, Given<std::string>& written);
 /// Read the closed surface of an STL or OBJ file, in µm, and check it: E601–E602 and E620–E624; then the mesh is empty.

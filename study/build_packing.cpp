@@ -3,6 +3,10 @@
 
 namespace morula::scenarios {
 
+double packing_modulus(const draft::CellType& type) {
+  return type.packing_bulk_modulus.value >= 0.0 ? type.packing_bulk_modulus.value : type.bulk_modulus.value;
+}
+
 cbm::PackingCurve build_packing(BuildContext& c, const std::string& type_name, const draft::CellType& t) {
   const std::string& law = t.packing_law.value;
   const bool own_modulus = t.packing_bulk_modulus.value >= 0.0;
@@ -18,7 +22,7 @@ cbm::PackingCurve build_packing(BuildContext& c, const std::string& type_name, c
       knots.push_back({knot.packing.value, knot.pressure.value});
     }
   } else {
-    const double bulk = own_modulus ? t.packing_bulk_modulus.value : t.bulk_modulus.value;
+    const double bulk = packing_modulus(t);
     if (!(bulk > 0.0) || !(t.sphere_young.value > 0.0)) return {};
     auto made = cbm::ideal_filled_cell(bulk, t.sphere_young.value, t.sphere_poisson.value);
     if (!made) {  // such spheres resist as much as the shell does: nothing is missing, but where a modulus was asked for

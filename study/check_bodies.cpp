@@ -1,10 +1,10 @@
 // What a body cannot do yet, or can do only outside the range of its law.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "cbm/contact_on.h"
 #include "cbm/sphere_range.h"
+#include "core/ball.h"
 #include "core/cell_id_text.h"
 #include "core/numbers/number_text.h"
 #include "coupling/mechanics/workspace.h"
@@ -262,7 +262,7 @@ void check_growth_in_moulds(BuildContext& c) {
   if (mould == c.draft.geometry.end() || leave) return;
   for (std::size_t i = 0; i < model.types.size(); ++i) {
     const auto& [name, place, t] = c.draft.cell_types[i];
-    const double modulus = t.packing_bulk_modulus.value >= 0.0 ? t.packing_bulk_modulus.value : t.bulk_modulus.value;
+    const double modulus = packing_modulus(t);
     if (!may_divide(c, i) || !may_be_sphere(c, i) || !(model.types[i].inhibit_pressure > kMost * modulus)) continue;
     c.diagnostics.warning(708, t.pressure_above.given ? t.pressure_above.place : mould->place,
                           "spheres of '" + name + "' grow until they bear " + t.pressure_above.text + ", and in a full mould ('" +
@@ -300,7 +300,7 @@ void note_traps_of_fluctuating_cells(BuildContext& c) {
     if (load.what->hold_center == nullptr) continue;
     const CellType& type = model.types[load.type];
     if (!(type.fluctuations.energy > 0.0) || type.fluctuations.resolve > 0.0) continue;
-    const double time = type.medium_friction * 4.0 * std::numbers::pi * type.radius.mean * type.radius.mean / load.size;
+    const double time = type.medium_friction * ball_surface(type.radius.mean) / load.size;
     const double part = 1.0 / (1.0 + model.step.max_step / (2.0 * time));
     if (part > 0.97) continue;
     c.study.notes.push_back("cells of '" + type.name + "' fluctuate in the trap '" + load.name + "' with a relaxation time of " +

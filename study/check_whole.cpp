@@ -284,7 +284,7 @@ double packing_stiffness(const draft::CellType& t, double radius) {
       if (width > 0.0) steepest = std::max(steepest, 1.5 * (high.pressure.value - low.pressure.value) / width);
     }
   } else if (const auto knots =
-                 cbm::ideal_filled_cell(t.packing_bulk_modulus.value >= 0.0 ? t.packing_bulk_modulus.value : t.bulk_modulus.value,
+                 cbm::ideal_filled_cell(packing_modulus(t),
                                         t.sphere_young.value, t.sphere_poisson.value)) {
     if (const auto curve = cbm::PackingCurve::through(*knots)) steepest = curve->steepest();
   }

@@ -173,7 +173,10 @@ std::optional<std::string> explain_study(const std::string& id, const Laws& laws
   if (!id.empty()) {
     const Declaration all = study_declarations(laws);
     const Declaration* const whole = id.find('.') == std::string::npos ? nullptr : find_path(all, id);
-    whole != nullptr ? void(out += explain_key(*whole)) : explain_matching(all, id, out);
+    if (whole != nullptr)
+      out += explain_key(*whole);
+    else
+      explain_matching(all, id, out);
     explain_observables(id, laws, out);
   }
   if (out.empty()) return std::nullopt;

@@ -44,7 +44,10 @@ void renumber(std::vector<SpherePair>& pairs, const Codes& codes, std::span<cons
     bool stays = true;
     if (!Codes::is_plain(a, b)) {
       stays = a != BodyChanges::kNone && b != BodyChanges::kNone;
-      stays ? s.of_fresh.push_back(static_cast<std::uint32_t>(to - s.first)) : s.dropped.push_back(old);
+      if (stays)
+        s.of_fresh.push_back(static_cast<std::uint32_t>(to - s.first));
+      else
+        s.dropped.push_back(old);
     }
     if (watch < watched.size() && watched[watch] == k)
       watched_now[watch++] = stays ? static_cast<std::uint32_t>(to - s.first) : MergedPairs::kGone;

@@ -37,6 +37,11 @@ initial:
 std::string with(const std::string& key, const std::string& text = kStudy) {
   return test::changed("    dcm:", "    " + key + "\n    dcm:", text);
 }
+/// One cell in the middle, of a type with these keys; `more`: other sections.
+std::string one_cell(const std::string& type, const std::string& more) {
+  return "schema: 1\nstudy: one\ntime: {end: 1 h}\ndomain: {size: [200 um, 200 um, 200 um]}\ncell_types: {cell: {" + type +
+         "}}\ninitial: [{type: cell, at: [[0 um, 0 um, 0 um]]}]\n" + more;
+}
 const std::string kAsShell = "radius: 40 um, as: shell}";
 
 TEST(Bodies, SmallSpheresThatMayGoFarInAStepAreTold) {
@@ -172,12 +177,10 @@ TEST(Bodies, AdhesionBeyondJkrIsToldWithItsNumbers) {
 
 /// A ball by Hertz's law lets a plane through its middle at 4/3 E/(1 − ν²) R²: 86 nN of the default 6 µm and 1.5 kPa.
 TEST(Bodies, ForcesThatGoThroughSpheresAreWarnedOf) {
-  const auto with_force = [](const char* force, const char* body) {
-    return test::warnings_of(std::string("schema: 1\nstudy: pushed\ntime: {end: 1 h}\ndomain: {size: [200 um, 200 um, 200 "
-                                         "um]}\ncell_types: {cell: {radius: 6 um, body: ") +
-                             body +
-                             "}}\ninitial: [{type: cell, at: [[0 um, 0 um, 0 um]]}]\nloads: {push: {type: cell, body_force: [0 nN, " +
-                             force + ", 0 nN], course: [{time: 0 s, factor: 0}, {time: 1 min, factor: -2}]}}\n");
+  const auto with_force = [](const std::string& force, const std::string& body) {
+    return test::warnings_of(one_cell("radius: 6 um, body: " + body,
+                                      "loads: {push: {type: cell, body_force: [0 nN, " + force +
+                                          ", 0 nN], course: [{time: 0 s, factor: 0}, {time: 1 min, factor: -2}]}}\n"));
   };
   EXPECT_THAT(with_force("30 nN", "sphere"),
               AllOf(HasSubstr("a force of 60 nN on a sphere of 'cell'"), HasSubstr("at 85.7 nN it passes"), HasSubstr("[E707]")));
@@ -188,16 +191,12 @@ TEST(Bodies, ForcesThatGoThroughSpheresAreWarnedOf) {
 /// 0.4 of the default modulus of 2.5 kPa; 500 Pa are 0.2 of it.
 TEST(Bodies, GrowthOfSpheresInMouldsIsWarnedOfWhereItGoesOnForLong) {
   const auto with_growth = [](const std::string& type, const std::string& more = "") {
-    return test::warnings_of(
-        "schema: 1\nstudy: mould\ntime: {end: 72 h}\ndomain: {size: [200 um, 200 um, 200 um]}\ncell_types: {w: {radius: 5 um, cycle: "
-        "{duration: 18 h}" +
-        type +
-        "}}\ngeometry: {mould: {sphere: {radius: 25 um}, side: inside"
-        "}}\ninitial: [{type: w, at: [[0 um, 0 um, 0 um]]}]\n" +
-        more);
+    return test::warnings_of(test::changed(
+        "end: 1 h", "end: 72 h",
+        one_cell("radius: 5 um, cycle: {duration: 18 h}" + type, "geometry: {mould: {sphere: {radius: 25 um}, side: inside}}\n" + more)));
   };
   const std::string stop = ", inhibit_growth: {pressure_above: 500 Pa}";
-  EXPECT_THAT(with_growth(""), AllOf(HasSubstr("spheres of 'w' grow until they bear 1 kPa, and in a full mould ('mould')"),
+  EXPECT_THAT(with_growth(""), AllOf(HasSubstr("spheres of 'cell' grow until they bear 1 kPa, and in a full mould ('mould')"),
                                      HasSubstr("[E708]"), HasSubstr("pressure_above: 500 Pa")));
   EXPECT_THAT(with_growth(stop), Not(HasSubstr("E708")));
   EXPECT_THAT(with_growth(", body: shell"), Not(HasSubstr("E708")));
@@ -205,13 +204,9 @@ TEST(Bodies, GrowthOfSpheresInMouldsIsWarnedOfWhereItGoesOnForLong) {
 }
 
 TEST(Bodies, HollowsThatFitSpheresAreTold) {
-  const auto notes_with = [](const char* radius) {
-    return test::notes_of(
-        std::string(
-            "schema: 1\nstudy: tube\ntime: {end: 1 h}\ndomain: {size: [200 um, 200 um, 200 um]}\ncell_types: {cell: {radius: 6 um}}\n") +
-        "initial: [{type: cell, at: [[0 um, 0 um, 0 um]]}]\ngeometry: {tube: {cylinder: {from: [-50 um, 0 um, 0 um], to: [50 um, 0 um, 0 "
-        "um], radius: " +
-        radius + "}, side: inside}}\n");
+  const auto notes_with = [](const std::string& radius) {
+    return test::notes_of(one_cell("radius: 6 um", "geometry: {tube: {cylinder: {from: [-50 um, 0 um, 0 um], to: [50 um, 0 um, 0 um], radius: " +
+                                                       radius + "}, side: inside}}\n"));
   };
   EXPECT_THAT(notes_with("10 um"), HasSubstr("'tube' is less than twice as wide as spheres of 'cell'"));
   EXPECT_THAT(notes_with("13 um"), Not(HasSubstr("tube")));
@@ -219,13 +214,10 @@ TEST(Bodies, HollowsThatFitSpheresAreTold) {
 
 /// A trap of 10 nN/µm on a sphere of 10 µm and 2e8 N s/m³ has a relaxation time of 25 s.
 TEST(Bodies, TrapsFasterThanStepsAreToldToCellsThatFluctuate) {
-  const auto notes_with = [](const char* more) {
-    return test::notes_of(std::string("schema: 1\nstudy: noisy\ntime: {end: 1 h}\ndomain: {size: [200 um, 200 um, 200 um]}\ncell_types: "
-                                      "{cell: {radius: 10 um, friction: "
-                                      "{medium: 2e8 N s/m^3}, fluctuations: {energy: 4e-18 J") +
-                          more +
-                          "}}}\ninitial: [{type: cell, at: [[0 um, 0 um, 0 um]]}]\nloads: {tweezers: {type: cell, trap: {stiffness: 10 "
-                          "mN/m, center: [0 um, 0 um, 0 um]}}}\n");
+  const auto notes_with = [](const std::string& more) {
+    return test::notes_of(
+        one_cell("radius: 10 um, friction: {medium: 2e8 N s/m^3}, fluctuations: {energy: 4e-18 J" + more + "}",
+                 "loads: {tweezers: {type: cell, trap: {stiffness: 10 mN/m, center: [0 um, 0 um, 0 um]}}}\n"));
   };
   EXPECT_THAT(notes_with(""), HasSubstr("fluctuate in the trap 'tweezers' with a relaxation time of 25 s"));
   EXPECT_THAT(notes_with(", resolve: 25 s"), Not(HasSubstr("tweezers")));
@@ -241,11 +233,8 @@ TEST(Bodies, DropsRestWhereTheirBallsAreCut) {
 /// A hybrid whose two bodies rest elsewhere is told so with both distances; not where one body is all that cells have, nor where moduli go together as in decision 0009.
 TEST(Bodies, ThatRestElsewhereAreWarnedOf) {
   const auto with = [](const std::string& type, const std::string& body) {
-    return test::warnings_of(
-        "schema: 1\nstudy: both\ntime: {end: 1 h}\ndomain: {size: [200 um, 200 um, 200 um]}\ncell_types:\n  cell: {" + type +
-        "}\ninitial: [{type: cell, at: [[0 um, 0 um, 0 um]]}]\ncoupling: {regions: [{name: r, shape: sphere, center: [0 um, 0 um, 0 um], "
-        "radius: 30 um, margin: 12 um, as: " +
-        body + "}]}\n");
+    return test::warnings_of(one_cell(
+        type, "coupling: {regions: [{name: r, shape: sphere, center: [0 um, 0 um, 0 um], radius: 30 um, margin: 12 um, as: " + body + "}]}\n"));
   };
   const std::string plain = with("radius: 6 um", "shell");
   EXPECT_THAT(plain, HasSubstr("[E651]"));
