@@ -39,7 +39,8 @@ Result<double> read_part(const std::string& flag, const std::string& text) {
 Status must_be_new(const std::filesystem::path& folder) {
   std::error_code error;
   if (!std::filesystem::exists(folder, error)) return {};
-  return Error{ErrorKind::kFile, "'" + folder.string() + "' exists already, and nothing is overwritten", "name another folder with `--out DIR`"};
+  return Error{ErrorKind::kFile, "'" + folder.string() + "' exists already, and nothing is overwritten",
+               "name another folder with `--out DIR`"};
 }
 
 std::string bytes_words(double bytes) {

@@ -283,9 +283,7 @@ double packing_stiffness(const draft::CellType& t, double radius) {
       const double width = high.packing.value - low.packing.value;
       if (width > 0.0) steepest = std::max(steepest, 1.5 * (high.pressure.value - low.pressure.value) / width);
     }
-  } else if (const auto knots =
-                 cbm::ideal_filled_cell(packing_modulus(t),
-                                        t.sphere_young.value, t.sphere_poisson.value)) {
+  } else if (const auto knots = cbm::ideal_filled_cell(packing_modulus(t), t.sphere_young.value, t.sphere_poisson.value)) {
     if (const auto curve = cbm::PackingCurve::through(*knots)) steepest = curve->steepest();
   }
   const double slopes = 6.0 * std::numbers::pi * 0.1815;

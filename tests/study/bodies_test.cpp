@@ -178,9 +178,9 @@ TEST(Bodies, AdhesionBeyondJkrIsToldWithItsNumbers) {
 /// A ball by Hertz's law lets a plane through its middle at 4/3 E/(1 − ν²) R²: 86 nN of the default 6 µm and 1.5 kPa.
 TEST(Bodies, ForcesThatGoThroughSpheresAreWarnedOf) {
   const auto with_force = [](const std::string& force, const std::string& body) {
-    return test::warnings_of(one_cell("radius: 6 um, body: " + body,
-                                      "loads: {push: {type: cell, body_force: [0 nN, " + force +
-                                          ", 0 nN], course: [{time: 0 s, factor: 0}, {time: 1 min, factor: -2}]}}\n"));
+    return test::warnings_of(
+        one_cell("radius: 6 um, body: " + body, "loads: {push: {type: cell, body_force: [0 nN, " + force +
+                                                    ", 0 nN], course: [{time: 0 s, factor: 0}, {time: 1 min, factor: -2}]}}\n"));
   };
   EXPECT_THAT(with_force("30 nN", "sphere"),
               AllOf(HasSubstr("a force of 60 nN on a sphere of 'cell'"), HasSubstr("at 85.7 nN it passes"), HasSubstr("[E707]")));
@@ -205,8 +205,9 @@ TEST(Bodies, GrowthOfSpheresInMouldsIsWarnedOfWhereItGoesOnForLong) {
 
 TEST(Bodies, HollowsThatFitSpheresAreTold) {
   const auto notes_with = [](const std::string& radius) {
-    return test::notes_of(one_cell("radius: 6 um", "geometry: {tube: {cylinder: {from: [-50 um, 0 um, 0 um], to: [50 um, 0 um, 0 um], radius: " +
-                                                       radius + "}, side: inside}}\n"));
+    return test::notes_of(one_cell(
+        "radius: 6 um",
+        "geometry: {tube: {cylinder: {from: [-50 um, 0 um, 0 um], to: [50 um, 0 um, 0 um], radius: " + radius + "}, side: inside}}\n"));
   };
   EXPECT_THAT(notes_with("10 um"), HasSubstr("'tube' is less than twice as wide as spheres of 'cell'"));
   EXPECT_THAT(notes_with("13 um"), Not(HasSubstr("tube")));
@@ -215,9 +216,8 @@ TEST(Bodies, HollowsThatFitSpheresAreTold) {
 /// A trap of 10 nN/µm on a sphere of 10 µm and 2e8 N s/m³ has a relaxation time of 25 s.
 TEST(Bodies, TrapsFasterThanStepsAreToldToCellsThatFluctuate) {
   const auto notes_with = [](const std::string& more) {
-    return test::notes_of(
-        one_cell("radius: 10 um, friction: {medium: 2e8 N s/m^3}, fluctuations: {energy: 4e-18 J" + more + "}",
-                 "loads: {tweezers: {type: cell, trap: {stiffness: 10 mN/m, center: [0 um, 0 um, 0 um]}}}\n"));
+    return test::notes_of(one_cell("radius: 10 um, friction: {medium: 2e8 N s/m^3}, fluctuations: {energy: 4e-18 J" + more + "}",
+                                   "loads: {tweezers: {type: cell, trap: {stiffness: 10 mN/m, center: [0 um, 0 um, 0 um]}}}\n"));
   };
   EXPECT_THAT(notes_with(""), HasSubstr("fluctuate in the trap 'tweezers' with a relaxation time of 25 s"));
   EXPECT_THAT(notes_with(", resolve: 25 s"), Not(HasSubstr("tweezers")));
@@ -234,7 +234,8 @@ TEST(Bodies, DropsRestWhereTheirBallsAreCut) {
 TEST(Bodies, ThatRestElsewhereAreWarnedOf) {
   const auto with = [](const std::string& type, const std::string& body) {
     return test::warnings_of(one_cell(
-        type, "coupling: {regions: [{name: r, shape: sphere, center: [0 um, 0 um, 0 um], radius: 30 um, margin: 12 um, as: " + body + "}]}\n"));
+        type,
+        "coupling: {regions: [{name: r, shape: sphere, center: [0 um, 0 um, 0 um], radius: 30 um, margin: 12 um, as: " + body + "}]}\n"));
   };
   const std::string plain = with("radius: 6 um", "shell");
   EXPECT_THAT(plain, HasSubstr("[E651]"));
