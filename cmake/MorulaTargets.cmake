@@ -43,14 +43,14 @@ function(morula_tests name)
     add_executable(test_${name} ${sources})
     morula_test_options(test_${name})
     target_link_libraries(test_${name} PRIVATE ${ARG_LIBRARIES} GTest::gmock GTest::gtest_main)
-    gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 900
+    gtest_discover_tests(test_${name} TEST_PREFIX "${name}." NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 900
       ENVIRONMENT "MORULA_SHARED_DATA=${PROJECT_SOURCE_DIR}/../shared/data" ${MORULA_SLEEPING_THREADS})
   endif()
   if(slow)
     add_executable(test_${name}_slow ${slow})
     morula_options(test_${name}_slow)
     target_link_libraries(test_${name}_slow PRIVATE ${ARG_LIBRARIES} GTest::gmock GTest::gtest_main)
-    gtest_discover_tests(test_${name}_slow TEST_PREFIX "${name}.slow." DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 3600 LABELS slow
+    gtest_discover_tests(test_${name}_slow TEST_PREFIX "${name}.slow." NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 3600 LABELS slow
       ENVIRONMENT "MORULA_SHARED_DATA=${PROJECT_SOURCE_DIR}/../shared/data" ${MORULA_SLEEPING_THREADS})
   endif()
 endfunction()
