@@ -97,6 +97,19 @@ Daughters divide_as_shell(const CellRecord& mother, const CellType& type, const 
   return {};
 }
 
+/// Both daughters of a cell; `shape`: of the daughters of shells, by type.
+Daughters divide(const Mother& dividing, const AroundDivision& around, const Model& model, const Tissue& tissue, const Mechanics& mechanics,
+                 std::span<const std::shared_ptr<const ReferenceShape>> shape) {
+  const auto& [body, late, mother] = dividing;
+  const CellType& type = model.types[mother.row.type];
+  const double share = division_share({mother.row, type}, model.seed);
+  const DaughterRows rows = divide_row(mother.row, tissue.cells.variables, type, model.seed, tissue.clock.time, late, share, model.types);
+  if (!body.is_shell) return divide_as_sphere(mother, rows, division_axis({mother.row, type, {}, around}, model.seed, 0));
+  const Surroundings walls = surroundings_of(mechanics.scene(), model.space, body.number, kReach);
+  const std::array<const CellType*, 2> become{&model.types[rows.first.type], &model.types[rows.second.type]};
+  return divide_as_shell(mother, type, around, rows, {&*mother.shell, become, shape[mother.row.type], walls.surfaces}, model.seed);
+}
+
 /// A shell for which no plane of division served: it waits, and tries others later; said once.
 void put_off(CellRow& mother, std::vector<Event>& events) {
   mother.draws += kTries;  // other planes the next time
@@ -160,21 +173,8 @@ Status Simulation::divide_and_remove(const LifeReport& life, std::vector<Event>&
   }
   std::optional<StageTimer::Scope> shaping;
   shaping.emplace(timer(), Stage::kShapes);
-  parallel_for(threads_, mothers.size(), [&](std::size_t k) {
-    const auto& [body, late, mother] = mothers[k];
-    const CellType& type = model_.types[mother.row.type];
-    const double share = division_share({mother.row, type}, model_.seed);
-    const DaughterRows rows =
-        divide_row(mother.row, tissue_.cells.variables, type, model_.seed, tissue_.clock.time, late, share, model_.types);
-    if (!body.is_shell) {
-      daughters[k] = divide_as_sphere(mother, rows, division_axis({mother.row, type, {}, around[k]}, model_.seed, 0));
-      return;
-    }
-    const Surroundings walls = surroundings_of(mechanics_->scene(), model_.space, body.number, kReach);
-    const std::array<const CellType*, 2> become{&model_.types[rows.first.type], &model_.types[rows.second.type]};
-    daughters[k] =
-        divide_as_shell(mother, type, around[k], rows, {&*mother.shell, become, shape[mother.row.type], walls.surfaces}, model_.seed);
-  });
+  parallel_for(threads_, mothers.size(),
+               [&](std::size_t k) { daughters[k] = divide(mothers[k], around[k], model_, tissue_, *mechanics_, shape); });
 
   shaping.reset();
   std::vector<std::size_t> gone = life.removals;

@@ -42,11 +42,45 @@ bool put_off_tight(std::span<const SwapOrder> orders, const ExchangeWatch& watch
   return any;
 }
 
+/// What becomes of cells that exchange their bodies.
+struct Exchanged {
+  std::vector<CellRecord> now;     ///< in the order of the orders
+  std::vector<CellRecord> before;  ///< of the promoted, should they find no room
+  std::vector<CellId> promoted;
+  std::vector<Event> events;
+};
+
+Exchanged exchange_bodies(std::span<const SwapOrder> orders, std::span<const BodyOfRow> bodies, const ExchangeWatch& watch,
+                          const Model& model, const Tissue& tissue, ShapeLibrary& shapes) {
+  Exchanged out;
+  const double time = tissue.clock.time;
+  for (std::size_t k = 0; k < orders.size(); ++k) {
+    CellRecord& cell = out.now.emplace_back(record_of(tissue, bodies[k]));
+    const bool up = orders[k].to == BodyKind::kShell;
+    const CellType& type = model.types[cell.row.type];
+    const double pressure = cell.row.pressure, had = volume_of_body(cell), as_shell = up ? volume_under_pressure(had, pressure, type) : had;
+    double later = 0.0;
+    if (up) {
+      out.before.push_back(cell);
+      const double to_come = model.swaps.gradual ? watch.room_to_come_of(cell.row.id, had - as_shell) : 0.0;
+      later = promote(cell, type, pressure, time, shapes, model.seed, to_come);
+      out.promoted.push_back(cell.row.id);
+    } else {
+      demote(cell, type, time);
+    }
+    const double as_sphere = (up ? had : volume_of_body(cell)) - watch.caps_of(cell.row.id);
+    Event event{time, up ? EventKind::kPromotion : EventKind::kDemotion, cell.row.id, {}, {}, orders[k].reason};
+    event.exchange =
+        ExchangeEffect{.became_shell = up, .volume = had, .room = up ? as_shell - as_sphere : as_sphere - as_shell, .later = later};
+    out.events.push_back(std::move(event));
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<Event> Simulation::swap_bodies() {
   auto timed = timer().scope(Stage::kCoupling);
-  std::vector<Event> events;
   const std::vector<Vec3d> center = centers();
   const LookedAt looked = look_for_swaps(model_, tissue_, center, *mechanics_, comm_);
   const bool may_stay = tissue_.clock.steps > 0;  // at the very beginning cells become what the study says
@@ -54,62 +88,39 @@ std::vector<Event> Simulation::swap_bodies() {
   ExchangeWatch watch;
   do {
     orders = choose_swaps(model_, tissue_, looked.bodies(center), comm_);
-    if (!comm_.any(!orders.empty())) return events;
+    if (!comm_.any(!orders.empty())) return {};
     watch = watch_exchanges(model_, tissue_, orders, *mechanics_, shapes_, comm_);
   } while (may_stay && comm_.any(put_off_tight(orders, watch, model_, tissue_)));
-  std::vector<double> pressure(orders.size());
-  for (std::size_t k = 0; k < orders.size(); ++k) pressure[k] = tissue_.cells.rows[orders[k].row].pressure;
   std::vector<CellId> leaving;
   for (const SwapOrder& order : orders)
     if (order.to == BodyKind::kSphere) leaving.push_back(tissue_.cells.rows[order.row].id);
   leaving = ids_of_all_ranks(leaving, comm_);
   std::vector<std::pair<CellId, CellId>> touching;
   if (!leaving.empty()) touching = mechanics_->touching(tissue_, leaving);
-  std::vector<CellId> fresh;
   std::vector<std::size_t> rows;
-  std::vector<CellRecord> before, changed;  // before: of the promoted, should they find no room
   for (const SwapOrder& order : orders) rows.push_back(order.row);
-  const std::vector<BodyOfRow> bodies = bodies_of(tissue_.cells, rows);
-  for (std::size_t k = 0; k < orders.size(); ++k) {
-    CellRecord& cell = changed.emplace_back(record_of(tissue_, bodies[k]));
-    const bool up = orders[k].to == BodyKind::kShell;
-    const CellType& type = model_.types[cell.row.type];
-    const double had = volume_of_body(cell), as_shell = up ? volume_under_pressure(had, pressure[k], type) : had;
-    double later = 0.0;
-    if (up) {
-      if (may_stay) before.push_back(cell);
-      later = promote(cell, type, pressure[k], tissue_.clock.time, shapes_, model_.seed,
-                      model_.swaps.gradual ? watch.room_to_come_of(cell.row.id, had - as_shell) : 0.0);
-      fresh.push_back(cell.row.id);
-    } else {
-      demote(cell, type, tissue_.clock.time);
-    }
-    events.push_back({tissue_.clock.time, up ? EventKind::kPromotion : EventKind::kDemotion, cell.row.id, {}, {}, orders[k].reason});
-    const double as_sphere = (up ? had : volume_of_body(cell)) - watch.caps_of(cell.row.id);
-    events.back().exchange =
-        ExchangeEffect{.became_shell = up, .volume = had, .room = up ? as_shell - as_sphere : as_sphere - as_shell, .later = later};
-  }
-  replace_cells(tissue_, rows, std::move(changed));
+  Exchanged done = exchange_bodies(orders, bodies_of(tissue_.cells, rows), watch, model_, tissue_, shapes_);
+  replace_cells(tissue_, rows, std::move(done.now));
   attach_touching(tissue_, touching);  // what adhered as a shell goes on adhering
-  attach_touching(before, touching);
+  attach_touching(done.before, touching);
   mark_new_shells(model_, tissue_);
-  if (comm_.any(!fresh.empty())) {
-    std::sort(fresh.begin(), fresh.end());
+  if (comm_.any(!done.promoted.empty())) {
+    std::ranges::sort(done.promoted);
     auto shaping = timer().scope(Stage::kShapes);
-    const Settled settled = settle_shells(tissue_, *mechanics_, model_, shapes_, comm_, fresh, may_stay);
-    if (!settled.no_room.empty()) take_back(tissue_, std::move(before), settled.no_room, events);
+    const Settled settled = settle_shells(tissue_, *mechanics_, model_, shapes_, comm_, done.promoted, may_stay);
+    if (!settled.no_room.empty()) take_back(tissue_, std::move(done.before), settled.no_room, done.events);
     tissue_.clock.capped = tissue_.clock.capped || settled.overlap_is_left;
   }
   mechanics_->cells_replaced();
-  if (may_stay) tell_exchanges(watch, tissue_, *mechanics_, shapes_, comm_, events);
+  if (may_stay) tell_exchanges(watch, tissue_, *mechanics_, shapes_, comm_, done.events);
   std::int64_t ups = 0, downs = 0;
-  for (const Event& event : events) {
+  for (const Event& event : done.events) {
     ups += event.kind == EventKind::kPromotion;
     downs += event.kind == EventKind::kDemotion;
   }
   tissue_.ledger.promotions += static_cast<std::uint64_t>(comm_.sum(ups));
   tissue_.ledger.demotions += static_cast<std::uint64_t>(comm_.sum(downs));
-  return events;
+  return std::move(done.events);
 }
 
 Result<std::vector<Event>> Simulation::first_swaps() {

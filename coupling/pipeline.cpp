@@ -170,11 +170,17 @@ Result<StepOutcome> Simulation::whole_step(const StepPlan& plan, const std::func
   ++clock.steps;
   const double wanted = wanted_less && outcome.retries == 0 ? clock.next_step : 0.0;
   clock.next_step = next_step(model_.step, model_.contact.range, outcome.mechanics, dt, wanted);
+  MORULA_TRY(after_mechanics(plan, dt, life, give_up, outcome));
+  return outcome;
+}
+
+Status Simulation::after_mechanics(const StepPlan& plan, double dt, const LifeReport& life, const std::function<bool()>& give_up,
+                                   StepOutcome& outcome) {
   wrap_cells();
   dcm::turn_over(tissue_.shells, mechanics_->shell_materials(), dt);
   dcm::turn_over(tissue_.nuclei.shells, mechanics_->nucleus_materials(), dt);
   average_pressures(dt);
-  turn_polarities(clock.steps - 1, dt);
+  turn_polarities(tissue_.clock.steps - 1, dt);
   renew_faces(dt);
   renew_meshes(outcome.events);
   if (!tissue_.fields.empty()) {
@@ -190,12 +196,12 @@ Result<StepOutcome> Simulation::whole_step(const StepPlan& plan, const std::func
   outcome.events.insert(outcome.events.end(), swapped.begin(), swapped.end());
   tell_settled_exchanges(outcome.events);
   outcome.events = all_events(std::move(outcome.events));
-  if (clock.steps % kReorderEvery == 0) {
+  if (tissue_.clock.steps % kReorderEvery == 0) {
     renew_order(tissue_);
     mechanics_->bodies_changed();
     if (imbalance() > kTolerableImbalance) distribute();
   }
-  return outcome;
+  return {};
 }
 
 }  // namespace morula

@@ -64,6 +64,9 @@ class Simulation {
   };
   [[nodiscard]] StepPlan plan_step(double land_on) const;
   Result<StepOutcome> whole_step(const StepPlan& plan, const std::function<bool()>& give_up);
+  /// What follows when the cells have moved for dt: the surfaces, the fields that are due, what life asks for, exchanges of bodies. Collective.
+  Status after_mechanics(const StepPlan& plan, double dt, const struct LifeReport& life, const std::function<bool()>& give_up,
+                         StepOutcome& outcome);
   void distribute();
   void set_bodies_to_targets(double dt);
   [[nodiscard]] std::vector<Vec3d> forces_on_cells(double time);

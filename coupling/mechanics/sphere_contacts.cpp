@@ -103,7 +103,7 @@ void SphereContacts::measure(const World& world) {
 
 void SphereContacts::evaluate_share(std::size_t number, const Scene& scene, Vec3d* to, OrderFreeSum& energy) {
   const SpherePairs::Share& share = list_.shares()[number];
-  std::vector<std::uint32_t>& flips = flips_[number];
+  std::vector<std::uint32_t>& flips = adhesion_.flips[number];
   const auto owned = static_cast<std::uint32_t>(scene.owned_spheres());
   const auto writes = [&](const SpherePair& pair) { return pair.a < owned ? share.has(pair.a) : share.has(pair.b); };  // one thread only
   flips.clear();
@@ -154,7 +154,7 @@ void SphereContacts::evaluate(const World& world, Forces& out) {
   Vec3d* to = out.force.data() + scene.sphere_point();
   virial_.assign(owned, 0.0);
   std::vector<OrderFreeSum> energy(std::max<std::size_t>(1, list_.shares().size()));
-  flips_.resize(list_.shares().size());
+  adhesion_.flips.resize(list_.shares().size());
   if (packing_.acts) list_.packing.slopes.assign(list_.pairs.size(), {});
   on_each_thread(threads(), [&](std::size_t t) { evaluate_share(t, scene, to, energy[t]); });
   for (const OrderFreeSum& of_share : energy) out.energy += of_share;
@@ -218,7 +218,7 @@ void SphereContacts::refresh_values(const Scene& scene, const std::vector<char>&
 
 void SphereContacts::end_step(const World& world, StepEnd& end) {
   if (end.clock_runs) update_attached(world, end.tissue);
-  young_.clear();
+  adhesion_.young.clear();
   friction_is_frozen_ = false;
 }
 
@@ -226,7 +226,7 @@ bool SphereContacts::update_attached(const World& world, Tissue& tissue) {
   const Scene& scene = world.scene;
   std::vector<char> marked;
   const auto mark = [&](std::uint32_t i) { SphereContacts::mark(marked, scene, i); };
-  for (auto& flips : flips_) {
+  for (auto& flips : adhesion_.flips) {
     for (const std::uint32_t k : flips) {
       SpherePair& pair = list_.pairs[k];
       set_attached(pair, pair.attached == 0);
@@ -244,11 +244,11 @@ bool SphereContacts::update_attached(const World& world, Tissue& tissue) {
   }
   const bool changed = !marked.empty();
   if (changed) refresh_values(scene, marked);
-  if (partners_are_lost_) mark_other_partners(scene, tissue, mark);
-  for (const std::uint32_t sphere : lost_) mark(sphere);
+  if (adhesion_.partners_are_lost) mark_other_partners(scene, tissue, mark);
+  for (const std::uint32_t sphere : adhesion_.lost) mark(sphere);
   if (!marked.empty()) write_partners(scene, marked, tissue);
-  partners_are_lost_ = false;
-  lost_.clear();
+  adhesion_.partners_are_lost = false;
+  adhesion_.lost.clear();
   return changed;
 }
 
@@ -351,7 +351,7 @@ SphereRangeCount SphereContacts::count_beyond_range(const Scene& scene) const {
 
 std::size_t SphereContacts::memory() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return list_.memory() + bytes(sisters_) + bytes(rigid_) + bytes(adhering_) + bytes(virial_) + bytes(packing_.part) +
+  return list_.memory() + bytes(sisters_) + bytes(rigid_) + bytes(adhesion_.count) + bytes(virial_) + bytes(packing_.part) +
          bytes(packing_.pressure) + bytes(packing_.on_surfaces);  // flips: a handful
 }
 

@@ -24,7 +24,7 @@ class SphereContacts : public Term {
  public:
   SphereContacts(const Model& model, SurfaceContacts& surfaces);
 
-  void bodies_changed(const World&) override { sisters_.clear(), young_.clear(); }  // their pairs are those of bodies that are no more
+  void bodies_changed(const World&) override { sisters_.clear(), adhesion_.young.clear(); }  // their pairs are those of bodies that are no more
   void bodies_replaced(const World& world, const BodyChanges& changes) override;
   /// Rest distances of young sisters at the present radii, and at the time of the world: within a step its end.
   void parameters_changed(const World& world) override { update_sisters(world.scene, world.time); }
@@ -133,6 +133,15 @@ class SphereContacts : public Term {
     std::vector<double> pressure;             ///< by sphere, ghosts too: p [kPa]
     std::vector<SpherePressure> on_surfaces;  ///< by body
   };
+  /// Who adheres to whom, beside the flags of the pairs.
+  struct Adhesion {
+    std::vector<std::uint32_t> count;               ///< by sphere, ghosts too: how many of its pairs are attached
+    std::vector<std::vector<std::uint32_t>> flips;  ///< by share: pairs whose flag changes if the step ends where they were evaluated last
+    std::vector<std::uint32_t>
+        young;                        ///< spheres that came since the last step: who adheres to them may still get another name; increasing
+    std::vector<std::uint32_t> lost;  ///< spheres with other partners than the mended list has; increasing
+    bool partners_are_lost = false;   ///< some sphere has partners that are no pair of a list that was made anew
+  };
   [[nodiscard]] int threads() const { return std::max(1, layer().settings().threads); }
   /// The pairs that one thread visits: forces on its spheres, elements and flags of the pairs that it writes, and energies of those that come first
   /// under one of its spheres.
@@ -211,17 +220,13 @@ class SphereContacts : public Term {
   std::uint64_t list_number_ = 0;  ///< of the candidates that the pairs were made from
   cbm::ContactTable table_;        ///< of all materials and walls
   SpherePairs list_;
-  std::vector<Sisters> sisters_;      ///< by pair
-  std::vector<std::uint32_t> young_;  ///< spheres that came since the last step: who adheres to them may still get another name; increasing
-  std::vector<RigidPair> rigid_;      ///< by sphere, obstacle and part
-  std::vector<char> is_curved_;       ///< by obstacle: some smooth part is not flat
-  std::vector<double> virial_;        ///< by owned sphere [nN·µm]
-  std::vector<std::uint32_t> adhering_;  ///< by sphere, ghosts too: how many of its pairs are attached
+  std::vector<Sisters> sisters_;  ///< by pair
+  std::vector<RigidPair> rigid_;  ///< by sphere, obstacle and part
+  std::vector<char> is_curved_;   ///< by obstacle: some smooth part is not flat
+  std::vector<double> virial_;    ///< by owned sphere [nN·µm]
   Packing packing_;
-  std::vector<std::vector<std::uint32_t>> flips_;  ///< by share: pairs whose flag changes if the step ends where they were evaluated last
-  bool friction_is_frozen_ = false;                ///< a step is under way
-  bool partners_are_lost_ = false;                 ///< some sphere has partners that are no pair of a list that was made anew
-  std::vector<std::uint32_t> lost_;                ///< spheres with other partners than the mended list has; increasing
+  Adhesion adhesion_;
+  bool friction_is_frozen_ = false;  ///< a step is under way
 };
 
 /// Friction of spheres with the medium, with each other and with obstacles: that of the step's start.

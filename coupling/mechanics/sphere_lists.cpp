@@ -61,23 +61,24 @@ bool SphereContacts::are_attached(const Scene& scene, const Tissue& tissue, cons
 }
 
 std::vector<std::uint32_t> SphereContacts::listed_partners() const {
-  std::vector<std::uint32_t> out = adhering_;
+  std::vector<std::uint32_t> out = adhesion_.count;
   for (std::size_t k = 0; k < rigid_.size(); ++k)
     if (k == 0 || !rigid_[k].same_bodies(rigid_[k - 1])) out[rigid_[k].sphere] += rigid_[k].attached;
   return out;
 }
 
 void SphereContacts::count_partners(const Scene& scene, const Tissue& tissue) {
-  adhering_.assign(scene.bodies().size() - scene.first_sphere(), 0);
+  adhesion_.count.assign(scene.bodies().size() - scene.first_sphere(), 0);
   parallel_for(threads(), list_.pairs.size(), [&](std::size_t k) {
     if (const SpherePair& pair = list_.pairs[k]; pair.attached)
-      for (const std::uint32_t i : {pair.a, std::uint32_t{pair.b}}) std::atomic_ref(adhering_[i]).fetch_add(1, std::memory_order_relaxed);
+      for (const std::uint32_t i : {pair.a, std::uint32_t{pair.b}})
+        std::atomic_ref(adhesion_.count[i]).fetch_add(1, std::memory_order_relaxed);
   });
   const std::vector<std::uint32_t> known = listed_partners();
-  partners_are_lost_ = false;
-  lost_.clear();
+  adhesion_.partners_are_lost = false;
+  adhesion_.lost.clear();
   for (std::uint32_t i = 0; i < scene.owned_spheres(); ++i)
-    partners_are_lost_ = partners_are_lost_ || known[i] != tissue.spheres.attached[i].size();
+    adhesion_.partners_are_lost = adhesion_.partners_are_lost || known[i] != tissue.spheres.attached[i].size();
 }
 
 void SphereContacts::keep_step_friction(const Scene& scene, std::vector<SpherePair> old_pairs,

@@ -10,7 +10,7 @@ namespace morula {
 void SphereContacts::bodies_replaced(const World& world, const BodyChanges& changes) {
   if (layer().is_stale() || list_number_ != surfaces_.list_number()) {
     sisters_.clear();  // the list is to be made anew
-    young_.clear();
+    adhesion_.young.clear();
     return;
   }
   assert(!friction_is_frozen_);
@@ -29,14 +29,14 @@ void SphereContacts::bodies_replaced(const World& world, const BodyChanges& chan
     if (body >= first) fresh[body - first] = 1;
   born = fresh;
   for (const auto& [before, body] : changes.strays) born[body - first] = 0;
-  for (const std::uint32_t sphere : young_)
+  for (const std::uint32_t sphere : adhesion_.young)
     if (const std::uint32_t there = number.place[sphere]; there != BodyChanges::kNone) fresh[there] = born[there] = 1;
-  young_.clear();
+  adhesion_.young.clear();
   for (std::uint32_t i = 0; i < born.size(); ++i)
-    if (born[i]) young_.push_back(i);
+    if (born[i]) adhesion_.young.push_back(i);
 
   std::vector<char> suspects = born;  // whose partners may be others
-  for (const std::uint32_t sphere : lost_)
+  for (const std::uint32_t sphere : adhesion_.lost)
     if (const std::uint32_t there = number.place[sphere]; there != BodyChanges::kNone) suspects[there] = 1;
   const std::vector<std::uint32_t> of_fresh = merge_pairs(scene, number, fresh, suspects);
   list_.elements.resize(list_.pairs.size());
@@ -51,7 +51,7 @@ void SphereContacts::bodies_replaced(const World& world, const BodyChanges& chan
     if (born[pair.a] | born[pair.b]) suspects[pair.a] = suspects[pair.b] = 1;
   }
   renumber_rigid_pairs(scene, world.tissue, number.now, fresh);
-  for (auto& flips : flips_) flips.clear();
+  for (auto& flips : adhesion_.flips) flips.clear();
   look_for_lost(scene, world.tissue, std::move(suspects));
   add_sisters(world, of_fresh);
 }
@@ -66,14 +66,14 @@ std::vector<std::uint32_t> SphereContacts::merge_pairs(const Scene& scene, const
 
   std::vector<std::uint32_t> adhering(fresh.size(), 0);
   for (std::size_t i = 0; i < number.place.size(); ++i)
-    if (number.place[i] != BodyChanges::kNone) adhering[number.place[i]] = adhering_[i];
+    if (number.place[i] != BodyChanges::kNone) adhering[number.place[i]] = adhesion_.count[i];
   for (const SpherePair& pair : merged.dropped) {
     const std::uint32_t a = number.place[pair.a], b = number.place[pair.b];
     for (const std::uint32_t there : {a, b})
       if (there != BodyChanges::kNone) adhering[there] -= pair.attached;
     if ((a == BodyChanges::kNone) != (b == BodyChanges::kNone)) suspects[a != BodyChanges::kNone ? a : b] = 1;
   }
-  adhering_ = std::move(adhering);
+  adhesion_.count = std::move(adhering);
 
   for (std::size_t s = 0; s < sisters_.size(); ++s) sisters_[s].pair = merged.watched[s];
   std::erase_if(sisters_, [](const Sisters& s) { return s.pair == MergedPairs::kGone; });
@@ -83,7 +83,7 @@ std::vector<std::uint32_t> SphereContacts::merge_pairs(const Scene& scene, const
 void SphereContacts::set_attached(SpherePair& pair, bool attached) {
   if (attached == (pair.attached != 0)) return;
   pair.attached = attached;
-  for (const std::uint32_t i : {pair.a, std::uint32_t{pair.b}}) attached ? ++adhering_[i] : --adhering_[i];
+  for (const std::uint32_t i : {pair.a, std::uint32_t{pair.b}}) attached ? ++adhesion_.count[i] : --adhesion_.count[i];
 }
 
 void SphereContacts::renumber_rigid_pairs(const Scene& scene, const Tissue& tissue, std::span<const std::uint32_t> now,
@@ -108,7 +108,7 @@ void SphereContacts::renumber_rigid_pairs(const Scene& scene, const Tissue& tiss
 }
 
 void SphereContacts::look_for_lost(const Scene& scene, const Tissue& tissue, std::vector<char> suspects) {
-  lost_.clear();
+  adhesion_.lost.clear();
   // A shell that became a sphere is a partner of all that it touched, whether or not the sphere reaches them.
   const std::vector<std::uint32_t> known = listed_partners();
   for (std::uint32_t i = 0; i < scene.owned_spheres(); ++i)
@@ -121,7 +121,7 @@ void SphereContacts::look_for_lost(const Scene& scene, const Tissue& tissue, std
     std::size_t count = 0;
     const std::span<const CellId> listed = tissue.spheres.attached[i];
     for (; at != found.end() && at->first == i; ++at, ++count) same = same && count < listed.size() && listed[count] == at->second;
-    if (!same || count != listed.size()) lost_.push_back(i);
+    if (!same || count != listed.size()) adhesion_.lost.push_back(i);
   }
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <iterator>
 
 #include "coupling/observables/measures.h"
 #include "coupling/observables/observable.h"
@@ -10,11 +11,37 @@ double per_step(std::uint64_t count, std::uint64_t steps) {
   return steps > 0 ? static_cast<double>(count) / static_cast<double>(steps) : 0.0;
 }
 
+using M = const Moment&;
+
+/// How the run goes, and what it has counted since time 0.
+std::vector<Observable> observables_of_the_run() {
+  return {
+      {"step_count", "1", "Steps since time 0.", [](M m) { return double(m.clock.steps); }},
+      {"step_size", "s", "Mean step since the last output.",
+       [](M m) { return m.interval.steps > 0 ? m.interval.time / double(m.interval.steps) : m.clock.next_step; }},
+      {"newton_iterations", "1", "Newton iterations per step since the last output.",
+       [](M m) { return per_step(m.interval.newton, m.interval.steps); }},
+      {"linear_iterations", "1", "Iterations of the linear solver per step since the last output.",
+       [](M m) { return per_step(m.interval.linear, m.interval.steps); }},
+      {"retries", "1", "Steps tried again with a smaller size since the last output.", [](M m) { return double(m.interval.retries); }},
+      {"centre_drift", "um",
+       "Way of the tissue's centre since time 0, every point weighted by its friction with the medium: what obstacles and forces from "
+       "outside have moved; where there are none it is the error of the solver.",
+       [](M m) { return norm(m.ledger.drift); }},
+      {"rotation", "rad", "Rotation of the tissue about that centre since time 0, weighted alike; 0 in periodic domains.",
+       [](M m) { return norm(m.ledger.rotation); }},
+      {"mean_way", "um", "Mean length of the way of all points since time 0, weighted alike.", [](M m) { return m.ledger.way; }},
+      {"divisions", "1", "Divisions since time 0.", [](M m) { return double(m.ledger.divisions); }},
+      {"deaths", "1", "Deaths since time 0.", [](M m) { return double(m.ledger.deaths); }},
+      {"promotions", "1", "Spheres that became shells since time 0.", [](M m) { return double(m.ledger.promotions); }},
+      {"demotions", "1", "Shells that became spheres since time 0.", [](M m) { return double(m.ledger.demotions); }},
+  };
+}
+
 }  // namespace
 
 std::vector<Observable> tissue_observables(const Model&) {
-  using M = const Moment&;
-  return {
+  std::vector<Observable> out = {
       {"cell_count", "1", "Number of cells.", [](M m) { return double(m.measures.cells); }},
       {"sphere_count", "1", "Cells whose body is a sphere.", [](M m) { return double(m.measures.spheres); }},
       {"shell_count", "1", "Cells whose body is a deformable shell.", [](M m) { return double(m.measures.shells); }},
@@ -62,26 +89,9 @@ std::vector<Observable> tissue_observables(const Model&) {
        [](M m) { return m.measures.total_volume_error; }},
       {"energy", "nN um", "Elastic, surface and contact energy; of a pair of spheres that adheres from where it would break apart.",
        [](M m) { return m.measures.energy; }},
-      {"step_count", "1", "Steps since time 0.", [](M m) { return double(m.clock.steps); }},
-      {"step_size", "s", "Mean step since the last output.",
-       [](M m) { return m.interval.steps > 0 ? m.interval.time / double(m.interval.steps) : m.clock.next_step; }},
-      {"newton_iterations", "1", "Newton iterations per step since the last output.",
-       [](M m) { return per_step(m.interval.newton, m.interval.steps); }},
-      {"linear_iterations", "1", "Iterations of the linear solver per step since the last output.",
-       [](M m) { return per_step(m.interval.linear, m.interval.steps); }},
-      {"retries", "1", "Steps tried again with a smaller size since the last output.", [](M m) { return double(m.interval.retries); }},
-      {"centre_drift", "um",
-       "Way of the tissue's centre since time 0, every point weighted by its friction with the medium: what obstacles and forces from "
-       "outside have moved; where there are none it is the error of the solver.",
-       [](M m) { return norm(m.ledger.drift); }},
-      {"rotation", "rad", "Rotation of the tissue about that centre since time 0, weighted alike; 0 in periodic domains.",
-       [](M m) { return norm(m.ledger.rotation); }},
-      {"mean_way", "um", "Mean length of the way of all points since time 0, weighted alike.", [](M m) { return m.ledger.way; }},
-      {"divisions", "1", "Divisions since time 0.", [](M m) { return double(m.ledger.divisions); }},
-      {"deaths", "1", "Deaths since time 0.", [](M m) { return double(m.ledger.deaths); }},
-      {"promotions", "1", "Spheres that became shells since time 0.", [](M m) { return double(m.ledger.promotions); }},
-      {"demotions", "1", "Shells that became spheres since time 0.", [](M m) { return double(m.ledger.demotions); }},
   };
+  std::ranges::move(observables_of_the_run(), std::back_inserter(out));
+  return out;
 }
 
 }  // namespace morula

@@ -1,6 +1,6 @@
-// A spheroid that two plates press: with shells where the law of spheres ends (`outside_law`), its shape is that of shells alone. 5 % are asked of it, which are met, and of the
-// pressure, of which 42 to 45 % are missing, and 38 to 40 % of the force on the plates, as with spheres alone: where the plates rest, shells go on to bear what spheres give way to.
-// (Before decision 0054 was mended the hybrid told a pressure of 0.77 of that of shells, by a tension of adhesion that is none of what presses it; the force was the same.)
+// A spheroid that two plates press and hold until it is at rest: with shells where the law of spheres ends (`outside_law`), its shape is that of shells alone. 5 % are asked
+// of it, which are met, and of the pressure and the force on the plates, of which up to 21 % are missing. An hour after the plates have come it is more (a third and more), for
+// spheres come to rest within an hour and shells within half a day.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -33,7 +33,7 @@ Pressed pressed(std::vector<std::string> overrides) {
   if (!test::run_into(folder.path() / "run", *study)) return {};
   const auto series = read_series(folder.path() / "run" / "series.csv");
   if (!series.ok()) return ADD_FAILURE() << series.error().message, Pressed{};
-  constexpr std::size_t kLast = 6;
+  constexpr std::size_t kLast = 3;
   const auto mean = [&](const char* name) {
     double sum = 0.0;
     for (std::size_t i = series->rows() - kLast; i < series->rows(); ++i) sum += series->find(name)->values[i];
@@ -51,10 +51,10 @@ TEST_P(PressedSpheroid, HasTheShapeOfShellsWithLessThanHalfOfThem) {
   EXPECT_EQ(shells.shells, 100.0);
   EXPECT_LT(hybrid.shells, 50.0);
   EXPECT_GT(hybrid.shells, 10.0);
-  EXPECT_GT(shells.pressure, 5e-3);
+  EXPECT_GT(shells.pressure, 4e-3);
   EXPECT_NEAR(hybrid.radius / shells.radius, 1.0, 0.035);
-  EXPECT_NEAR(hybrid.pressure / shells.pressure, 1.0, 0.48);  // what is today, rounded up, of both
-  EXPECT_NEAR(hybrid.force / shells.force, 1.0, 0.43);
+  EXPECT_NEAR(hybrid.pressure / shells.pressure, 1.0, 0.25);  // what is today, rounded up, of both
+  EXPECT_NEAR(hybrid.force / shells.force, 1.0, 0.25);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, PressedSpheroid, testing::Values(1, 2, 3));
