@@ -4,6 +4,8 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <fstream>
+#include <string>
 
 #include "core/parallel/comm.h"
 #include "results/run_folder.h"
@@ -16,6 +18,15 @@ bool on_this_machine(const std::string& host) {
   return gethostname(name, sizeof name - 1) == 0 && host == name;
 }
 
+/// Whether a process has ended and nobody has asked how: it is still listed then.
+bool has_ended(pid_t process) {
+  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+  std::string text;
+  std::getline(file, text);
+  const std::size_t name_ends = text.rfind(')');  // the name may hold anything
+  return name_ends != std::string::npos && text.substr(name_ends + 1, 2) == " Z";
+}
+
 }  // namespace
 
 std::string RunOverview::state_word() const { return lost ? "lost" : scenarios::name_of(record.state); }
@@ -25,17 +36,16 @@ Result<RunOverview> overview_of(const std::filesystem::path& run) {
   RunOverview overview;
   overview.path = folder.path();
   MORULA_TRY_ASSIGN(overview.record, scenarios::read_run_record(folder.record()));
-  std::error_code error;
-  if (std::filesystem::exists(folder.status(), error)) {
-    MORULA_TRY_ASSIGN(overview.status, scenarios::read_run_status(folder.status()));
-  } else {
+  if (auto status = scenarios::read_run_status(folder.status()); status.ok()) {
+    overview.status = *std::move(status);
+  } else {  // gone or damaged; the next output writes it anew
     overview.status.wall_time = overview.record.wall_time;
     overview.status.updated = overview.record.started;
   }
   overview.status.state = overview.record.state;
   const auto process = static_cast<pid_t>(overview.status.process);
   if (overview.record.state == scenarios::RunState::kRunning && process > 0 && on_this_machine(overview.record.host))
-    overview.lost = kill(process, 0) != 0 && errno == ESRCH;
+    overview.lost = (kill(process, 0) != 0 && errno == ESRCH) || has_ended(process);
   return overview;
 }
 

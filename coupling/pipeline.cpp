@@ -17,7 +17,7 @@ namespace morula {
 namespace {
 
 constexpr double kSmallestStep = 1e-4;        // below this a step is given up [s]
-constexpr double kAtRest = 1e-3;              // displacement of a step, as a part of the allowed one, below which nothing is to be resolved
+constexpr double kAtRest = 1e-2;              // displacement of a step, as a part of the allowed one, below which nothing is to be resolved
 constexpr double kGrowthOfStep = 1.5;         // most a step grows from one to the next
 constexpr std::uint64_t kReorderEvery = 200;  // steps between renewals of the canonical order: the same on any number of ranks
 constexpr double kTolerableImbalance = 1.25;

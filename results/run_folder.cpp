@@ -91,6 +91,19 @@ Status filter_lines(const fs::path& path, std::uint64_t length, const std::funct
   return kept == text ? Status{} : write_file_atomically(path, kept);
 }
 
+/// Whether a line has so many numbers, or nothing in their places, between commas.
+bool is_row(std::string_view line, std::size_t numbers) {
+  for (std::size_t begin = 0; numbers > 0; --numbers) {
+    const std::size_t end = std::min(line.find(',', begin), line.size());
+    double value = 0.0;
+    const auto [read, problem] = std::from_chars(line.data() + begin, line.data() + end, value);
+    if (end > begin && (problem != std::errc() || read != line.data() + end)) return false;
+    if (end == line.size()) return numbers == 1;
+    begin = end + 1;
+  }
+  return false;
+}
+
 Result<InputRecord> copy_input(const InputFile& input, const fs::path& run) {
   MORULA_TRY_ASSIGN(const std::string bytes, read_file(input.path));
   MORULA_TRY(make_parents((run / input.copy).parent_path()));
@@ -192,11 +205,12 @@ Status RunFolder::begin_series(std::span<const SeriesHeader> columns) const {
   for (const SeriesHeader& column : columns) header += ',' + column.name + " [" + column.unit + ']';
   header += '\n';
   std::error_code ignored;
-  if (!fs::exists(series(), ignored)) return write_file_atomically(series(), header);
+  const bool is_empty = fs::is_regular_file(series(), ignored) && fs::file_size(series(), ignored) == 0;
+  if (is_empty || !fs::exists(series(), ignored)) return write_file_atomically(series(), header);
   MORULA_TRY_ASSIGN(const std::string text, read_file(series()));
   if (text.compare(0, header.size(), header) == 0) return {};
   return Error{ErrorKind::kInput, "'" + series().string() + "' has other columns than the study's series",
-               "resume with the study that the run was started with"};
+               "resume with the study that the run was started with; where the file is damaged, move it away: a new one begins"};
 }
 
 Status RunFolder::add_to_series(double time, std::span<const double> values) const {
@@ -218,8 +232,10 @@ Result<TextLengths> RunFolder::sync_texts() const {
 Result<bool> RunFolder::cut_back(double time, const TextLengths& lengths) const {
   if (!is_root_) return false;
   MORULA_TRY(filter_lines(log(), lengths.log, [](const std::string&, std::size_t) { return true; }));
+  std::size_t columns = 0;
   MORULA_TRY(filter_lines(series(), kWholeText, [&](const std::string& line, std::size_t number) {
-    if (number == 0) return true;  // the header
+    if (number == 0) columns = 1 + static_cast<std::size_t>(std::ranges::count(line, ','));
+    if (number == 0 || !is_row(line, columns)) return number == 0;
     double at = 0.0;
     const auto [end, problem] = std::from_chars(line.data(), line.data() + line.size(), at);
     return problem == std::errc() && at <= time;

@@ -47,7 +47,7 @@ class RunFolder : public RunFiles {
   /// Makes the texts that grow with the run last, as a checkpoint does its state; their lengths then, on the root.
   Result<TextLengths> sync_texts() const;
   /// After a restart: takes from series.csv and events.jsonl what is later than `time`, from events.jsonl and log.txt what came after the
-  /// checkpoint that had these lengths, and what was written by halves. Whether events are missing that the checkpoint knew (at the root).
+  /// checkpoint that had these lengths, and what was written by halves or is no row of numbers. Whether events are missing that the checkpoint knew (at the root).
   Result<bool> cut_back(double time, const TextLengths& lengths) const;
 
  private:

@@ -49,7 +49,10 @@ std::optional<RunState> state_at(const Json& json) {
 Result<Json> read_object(const std::filesystem::path& path) {
   MORULA_TRY_ASSIGN(const std::string text, read_file(path));
   Json json = Json::parse(text, nullptr, false);
-  if (!json.is_object() || !state_at(json)) return Error{ErrorKind::kFile, "'" + path.string() + "' is damaged: not a record of a run", ""};
+  if (!json.is_object() || !state_at(json))
+    return Error{ErrorKind::kFile, "'" + path.string() + "' is damaged: not a record of a run",
+                 "a status.json may be deleted, the next output writes it anew; without run.json a run cannot go on, but "
+                 "study.resolved.yaml beside it can be run anew"};
   return json;
 }
 

@@ -24,7 +24,9 @@ class SphereContacts : public Term {
  public:
   SphereContacts(const Model& model, SurfaceContacts& surfaces);
 
-  void bodies_changed(const World&) override { sisters_.clear(), adhesion_.young.clear(); }  // their pairs are those of bodies that are no more
+  void bodies_changed(const World&) override {
+    sisters_.clear(), adhesion_.young.clear();
+  }  // their pairs are those of bodies that are no more
   void bodies_replaced(const World& world, const BodyChanges& changes) override;
   /// Rest distances of young sisters at the present radii, and at the time of the world: within a step its end.
   void parameters_changed(const World& world) override { update_sisters(world.scene, world.time); }

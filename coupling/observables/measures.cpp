@@ -224,6 +224,15 @@ Vec3d set_means(const double (&total)[kSums], Measures& out) {
   return mean;
 }
 
+/// How far the farthest point of a cell is whose centre is there [µm].
+double far_side(const Tissue& tissue, const BodyOfRow& body, const Vec3d& there, const Vec3d& center) {
+  if (!body.is_shell) return norm(there) + tissue.spheres.radius[body.number];
+  const std::uint32_t first = tissue.shells.first_node[body.number], last = tissue.shells.first_node[body.number + 1];
+  double most2 = 0.0;
+  for (std::uint32_t i = first; i < last; ++i) most2 = std::max(most2, norm2(tissue.shells.position[i] - center + there));
+  return std::sqrt(most2);
+}
+
 }  // namespace
 
 Measures measure(Simulation& simulation) {
@@ -268,7 +277,7 @@ Measures measure(Simulation& simulation) {
   const Vec3d mean = set_means(total, out);
   double extent = 0.0;
   for (const BodyOfRow& body : bodies_of(tissue.cells))
-    extent = std::max(extent, norm(from_middle(body) - mean) + ball_radius(values.volume[body.place(tissue.shells.size())]));
+    extent = std::max(extent, far_side(tissue, body, from_middle(body) - mean, center[body.row]));
   out.largest_extent = comm.max(extent);
   return out;
 }

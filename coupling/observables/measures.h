@@ -19,7 +19,7 @@ struct Measures {
   double total_volume = 0.0;          ///< of the bodies [µm³]
   double box_volume = 0.0;            ///< of the domain [µm³]
   double spheroid_radius = 0.0;  ///< R = √(5/3) R_g, R_g² = Σ V_i (|c_i − c̄|² + 3/5 r_i²) / Σ V_i: exact for a ball of any cells [µm]
-  double largest_extent = 0.0;       ///< max |c_i − c̄| + r_i [µm]
+  double largest_extent = 0.0;       ///< of the farthest point of a cell from the tissue's centre [µm]
   double mean_pressure = 0.0;        ///< over cells [kPa]
   double shell_pressure = kNone;     ///< over shells [kPa]
   double inner_pressure = kNone;     ///< mean over shells [kPa]

@@ -13,8 +13,9 @@
 namespace morula::scenarios {
 namespace {
 
-/// Range of the energy over its size, below which a tissue is at rest and what is left are the tolerances of the steps.
-constexpr double kRest = 1e-7;
+/// Range of the energy over its size, below which a tissue is at rest and what is left are the tolerances of the steps: of the energy of a few cells, 1e-7 of it
+/// (what the limit leaves of that) are a few kT.
+constexpr double kRest = 1e-4;
 
 /// Largest value of a column; kNothing, which passes no limit, without a row or where a value is no number.
 double largest(const SeriesColumn* column) {

@@ -125,8 +125,14 @@ Status RunLoop::go_back(const CheckpointInfo& checkpoint) {
   const double time = simulation_->tissue().clock.time;
   const Result<bool> events_lost = folder_.cut_back(time, checkpoint.texts);
   MORULA_TRY(agree(events_lost.ok() ? Status{} : Status(events_lost.error()), comm_));
-  MORULA_TRY(write_results([&] { return truncate_snapshots(folder_.results(), time, comm_); }));
-  MORULA_TRY(begin_results(folder_.results(), results_head(study_), comm_));  // where the file is gone
+  const auto go_on_with_results = [&]() -> Status {
+    MORULA_TRY(truncate_snapshots(folder_.results(), time, comm_));
+    MORULA_TRY(begin_results(folder_.results(), results_head(study_), comm_));  // where the file is gone
+    if (!comm_.is_root()) return agree({}, comm_);
+    const auto listed = list_snapshots(folder_.results());
+    return agree(listed.ok() ? Status{} : Status(listed.error()), comm_);
+  };
+  MORULA_TRY(write_results(go_on_with_results));
   if (comm_.any(*events_lost))
     warn(
         "events.jsonl is damaged: some of what happened up to here is lost from it, and criteria, report and lineage know of the rest "

@@ -153,12 +153,19 @@ void RunLoop::tell_to_and_fro(const Event& event, const std::string& reason) {
 /// Elastic spheres are spheres as long as their contacts are small (cbm.md §2), and a fit holds where it was made.
 void RunLoop::tell_contacts_beyond(const Measures& m) {
   constexpr double kMostBeyond = 0.1;
-  if ((warned_ & kBeyondRange) != 0 || !(static_cast<double>(m.contacts_beyond) > kMostBeyond * static_cast<double>(m.sphere_contacts)))
-    return;
-  note(Note::Kind::kNote,
-       std::to_string(m.contacts_beyond) + " of " + std::to_string(m.sphere_contacts) +
+  if ((warned_ & kBeyondRange) != 0) return;
+  std::string what;
+  if (static_cast<double>(m.contacts_beyond) > kMostBeyond * static_cast<double>(m.sphere_contacts))
+    what = std::to_string(m.contacts_beyond) + " of " + std::to_string(m.sphere_contacts) +
            " contacts of spheres are outside the range of their law (`contacts_beyond_range` in series.csv): the overlaps it "
-           "was fitted to, or else a contact radius of 0.45 R");
+           "was fitted to, or else a contact radius of 0.45 R";
+  else if (static_cast<double>(m.spheres_outside) > kMostBeyond * static_cast<double>(m.spheres))
+    what = std::to_string(m.spheres_outside) + " of " + std::to_string(m.spheres) +
+           " spheres are outside the range of their law (`spheres_outside_law` in series.csv), by what they touch, also shells and "
+           "obstacles, or by "
+           "how tightly they are packed: as shells (`coupling: {triggers: [{outside_law: 1}]}`) they would not be";
+  if (what.empty()) return;
+  note(Note::Kind::kNote, what);
   warned_ |= kBeyondRange;
 }
 

@@ -39,6 +39,17 @@ TEST(Observables, OneSphereHasItsOwnRadius) {
   EXPECT_NEAR(value_of("total_volume", *simulation), kBall * 216.0, 1e-9);
 }
 
+/// The far side of a shell is where its nodes are, whatever its volume says.
+TEST(Observables, AStretchedShellReachesAsFarAsItsNodes) {
+  Model model = test::clusters_model();
+  ShapeLibrary shapes;
+  Tissue tissue = test::make_tissue(model, shapes, {{0, 0, 0}}, {BodyKind::kShell});
+  for (Vec3d& x : tissue.shells.position) x.z *= 3.0;
+  auto made = Simulation::create(std::move(model), std::move(tissue), Comm(), 1);
+  ASSERT_TRUE(made.ok());
+  EXPECT_NEAR(value_of("largest_extent", **made), 18.0, 0.3);
+}
+
 TEST(Observables, KnowATissueOfKnownNumbers) {
   // Two spheres and a shell, far from each other, on a line: 0, 60 and 120 µm. R_g² = 2·60²/3 + 3/5·6².
   const auto simulation = simulation_of({{-60, 0, 0}, {0, 0, 0}, {60, 0, 0}}, {BodyKind::kSphere, BodyKind::kShell, BodyKind::kSphere});

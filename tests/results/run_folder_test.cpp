@@ -182,6 +182,13 @@ TEST_F(RunFolders, SeriesAndEventsAreCutBackToTheCheckpoint) {
   ASSERT_TRUE(run.cut_back(0.1 * 2, {}).ok());
   EXPECT_EQ(slurp(run.series()),
             "time [s],cell_count [1],pressure [kPa]\n0,0,0.3333333333333333\n0.1,1,0.3333333333333333\n0.2,2,0.3333333333333333\n");
+  // A row that is no row any more goes alone, and a file without anything is begun anew.
+  spit(run.series(), "time [s],cell_count [1],pressure [kPa]\n0,0,0.3\n0.1,\x81,0.3\n0.15,1\n0.2,2,\n");
+  ASSERT_TRUE(run.cut_back(0.1 * 2, {}).ok());
+  EXPECT_EQ(slurp(run.series()), "time [s],cell_count [1],pressure [kPa]\n0,0,0.3\n0.2,2,\n");
+  spit(run.series(), "");
+  EXPECT_TRUE(run.begin_series(columns).ok());
+  EXPECT_EQ(slurp(run.series()), "time [s],cell_count [1],pressure [kPa]\n");
   const std::string lines = slurp(run.events());
   EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 3);
   EXPECT_EQ(lines.substr(0, lines.find('\n')), R"({"time_s":0.0,"kind":"division","cell":"7","daughters":["7.0","7.1"],"text":"grown"})");

@@ -132,6 +132,26 @@ TEST(OutsideLaw, DoesNotFlapAtTheThreshold) {
   EXPECT_LE(ledger.promotions + ledger.demotions, 6u) << ledger.promotions << " promotions, " << ledger.demotions << " demotions";
 }
 
+/// A small sphere on a large shell that it adheres to is no contact of two spheres: the log tells it all the same.
+TEST(OutsideLaw, OfASphereOnAShellIsToldInTheLog) {
+  const test::Folder folder;
+  run_in(folder, R"(schema: 1
+study: on_a_shell
+time: {end: 30 min, output: 15 min}
+domain: {size: [60 um, 60 um, 60 um]}
+cell_types:
+  big: {radius: 12 um, body: shell, adhesion: {big: 1e-4 J/m^2, small: 1e-4 J/m^2}}
+  small: {radius: 3 um, adhesion: {small: 1e-5 J/m^2}}
+initial:
+  - {type: big, at: [0 um, 0 um, 0 um]}
+  - {type: small, at: [15.2 um, 0 um, 0 um]}
+output: {report: false}
+)",
+         "run");
+  EXPECT_GT(last_of(folder.path() / "run", "max_outside_law"), 1.0);
+  EXPECT_THAT(read_file(folder.path() / "run/log.txt").value(), testing::HasSubstr("1 of 1 spheres are outside the range of their law"));
+}
+
 TEST(OutsideLaw, TriggersAreCheckedLikeOthers) {
   const auto errors = [](const std::string& trigger) {
     const auto study = test::read(study_of("{end: 1 h}", "", "at: [[0 um, 0 um, 0 um]]", "coupling: {triggers: [" + trigger + "]}\n"));

@@ -260,8 +260,8 @@ TEST(Resume, KnowsWhenItsInputsOrItsResultsAreNotWhatTheyWere) {
   series = read_text(folder / "run/series.csv");
   folder.write("run/series.csv", series.substr(0, series.rfind(',')) + "\n");  // a field of it
   const Outcome damaged = run_morula({"resume", "run"}, folder.path());
-  EXPECT_EQ(damaged.exit_code, 3) << damaged.all();
-  EXPECT_THAT(damaged.all(), testing::HasSubstr("series.csv"));
+  EXPECT_EQ(damaged.exit_code, 0) << damaged.all();
+  EXPECT_THAT(damaged.all(), testing::HasSubstr("series.csv has " + std::to_string(lines_of(series).size() - 2) + " rows"));
   for (const auto& file : fs::directory_iterator(folder / "run"))
     EXPECT_EQ(file.path().filename().string().find("damaged"), std::string::npos) << "results.h5 is whole";
 }

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -159,6 +161,30 @@ TEST(Kill, BeforeTheFirstCheckpointIsToldAsLost) {
   ASSERT_FALSE(has_checkpoint);
   EXPECT_EQ(json::parse(run_morula({"status", "killed", "--json"}, folder.path()).out)["state"], "lost");
   EXPECT_THAT(run_morula({"status", "killed"}, folder.path()).out, testing::HasSubstr("begin again: "));
+}
+
+/// In a container nobody may ask how a killed process ended: it stays listed, and the run is lost all the same.
+TEST(Kill, AProcessThatNobodyHasBuriedIsLost) {
+  const TestFolder folder;
+  folder.write("study.yaml", sphere_study());
+  {
+    RunningCommand command({"run", "study.yaml", "--out", "run", "time.end=16 h"}, folder.path());
+    ASSERT_TRUE(command.wait_for(folder / "run/checkpoints/cp_000001.h5"));
+    command.send(SIGKILL);
+    (void)command.wait();
+  }
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) _exit(0);
+  siginfo_t ended;
+  ASSERT_EQ(waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOWAIT), 0);  // looked at, not taken away
+  json status = json::parse(read_text(folder / "run/status.json"));
+  status["process"] = child;
+  folder.write("run/status.json", status.dump());
+  EXPECT_EQ(json::parse(run_morula({"status", "run", "--json"}, folder.path()).out)["state"], "lost");
+  waitpid(child, nullptr, 0);
+  folder.write("run/status.json", "");  // damaged: what run.json says is told
+  EXPECT_EQ(run_morula({"status", "run"}, folder.path()).exit_code, 0);
 }
 
 TEST(Kill, AtARandomMomentThenResumeEndsInTheSameBits) {
