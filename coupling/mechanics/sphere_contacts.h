@@ -24,9 +24,11 @@ class SphereContacts : public Term {
  public:
   SphereContacts(const Model& model, SurfaceContacts& surfaces);
 
+  /// What is known of pairs is known of bodies that are no more.
   void bodies_changed(const World&) override {
-    sisters_.clear(), adhesion_.young.clear();
-  }  // their pairs are those of bodies that are no more
+    sisters_.clear();
+    adhesion_.young.clear();
+  }
   void bodies_replaced(const World& world, const BodyChanges& changes) override;
   /// Rest distances of young sisters at the present radii, and at the time of the world: within a step its end.
   void parameters_changed(const World& world) override { update_sisters(world.scene, world.time); }
@@ -139,10 +141,9 @@ class SphereContacts : public Term {
   struct Adhesion {
     std::vector<std::uint32_t> count;               ///< by sphere, ghosts too: how many of its pairs are attached
     std::vector<std::vector<std::uint32_t>> flips;  ///< by share: pairs whose flag changes if the step ends where they were evaluated last
-    std::vector<std::uint32_t>
-        young;                        ///< spheres that came since the last step: who adheres to them may still get another name; increasing
-    std::vector<std::uint32_t> lost;  ///< spheres with other partners than the mended list has; increasing
-    bool partners_are_lost = false;   ///< some sphere has partners that are no pair of a list that was made anew
+    std::vector<std::uint32_t> young;  ///< came since the last step: who adheres to them may still get another name; increasing
+    std::vector<std::uint32_t> lost;   ///< spheres with other partners than the mended list has; increasing
+    bool partners_are_lost = false;    ///< some sphere has partners that are no pair of a list that was made anew
   };
   [[nodiscard]] int threads() const { return std::max(1, layer().settings().threads); }
   /// The pairs that one thread visits: forces on its spheres, elements and flags of the pairs that it writes, and energies of those that come first
