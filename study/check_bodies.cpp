@@ -75,6 +75,28 @@ void check_sheets_of_divisions(BuildContext& c) {
   });
 }
 
+/// Tension and adhesion draw faces out where cells touch: a law of small stretches bears them while they are a small part of E h (eight cells lived at 0.1
+/// of it, and ended at 0.25).
+void check_sheets_under_tension(BuildContext& c) {
+  constexpr double kMuch = 0.15;
+  std::uint64_t founders = 0;
+  for (const InitialCells& block : c.study.initial) founders += block.count;
+  for (std::size_t i = 0; i < c.study.model.types.size() && founders > 1; ++i) {
+    const auto& [name, place, t] = c.draft.cell_types[i];
+    const dcm::ShellParameters& shell = c.study.model.types[i].shell;
+    const double adhesion = c.study.model.pair(i, i).adhesion, bears = t.young.value * t.thickness.value;
+    const double pull = std::max(shell.tension, adhesion);
+    if (!may_be_shell(c, i) || !(adhesion > 0.0) || !(pull > kMuch * bears)) continue;
+    for (const dcm::Sheet& sheet : shell.sheets)
+      if (sheet.law->excess != nullptr)
+        c.diagnostics.warning(
+            696, t.elastic.given ? t.elastic.place : place,
+            "the tension or the adhesion of '" + name + "' is " + short_number(std::round(100.0 * pull / bears) / 100.0) +
+                " of E h of its cortex: where its shells touch, faces leave the range of " + sheet.law->name,
+            "`elastic: neo_hooke` or `springs`, or a `young` of " + short_number(std::ceil(pull / kMuch / t.thickness.value)) + " kPa");
+  }
+}
+
 /// E406 for named cells whose founder the study has not.
 void check_named_cells(BuildContext& c) {
   std::uint64_t founders = 0;
@@ -336,6 +358,7 @@ void check_bodies(BuildContext& c) {
   check_division_of_shells(c);
   check_mesh_of_divisions(c);
   check_sheets_of_divisions(c);
+  check_sheets_under_tension(c);
   check_jkr_range(c);
   check_rest_of_bodies(c);
   check_water_of_bodies(c);

@@ -287,8 +287,10 @@ constexpr ErrorCode kCodes[] = {
      "and those for which that is negative do not stick. Where tensions or adhesion differ by marks beside it, faces in contact have a "
      "tension of their own; "
      "the resistance of triangles to distortion bears the difference, and contact angles lie 2 to 6 degrees beside Young's law."},
-    {696, "elastic law whose range divisions leave",
-     "Faces beside a new interface are stretched by a fifth and more. A law that holds for small stretches only ends the run there."},
+    {696, "elastic law whose range cells leave",
+     "Faces beside a new interface are stretched by a fifth and more, and so are those of cells that touch where tension or adhesion are "
+     "more "
+     "than some 0.15 E h. A law that holds for small stretches only ends the run there."},
     {697, "obstacle at a periodic face",
      "An obstacle that is shorter than the domain is seen across periodic faces, as cells are. One that is as long goes on beyond them by "
      "itself, "

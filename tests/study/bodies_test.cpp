@@ -119,7 +119,11 @@ TEST(Bodies, ALawWhoseRangeDivisionsLeaveIsToldWithOneThatHolds) {
               AllOf(HasSubstr("beyond the range of st_venant_kirchhoff"), HasSubstr("neo_hooke"), HasSubstr("[E696]")));
   EXPECT_THAT(with_law("neo_hooke", divides), Not(HasSubstr("E696")));
   const std::string waits = test::changed("radius: 40 um}", kAsShell, with("cycle: {duration: 18 h, shells: wait}"));
-  EXPECT_THAT(with_law("stvk", waits), Not(HasSubstr("E696")));
+  EXPECT_THAT(with_law("stvk, young: 50 kPa", waits), Not(HasSubstr("E696")));
+  const std::string pulled = with_law("stvk, young: 1 kPa, thickness: 200 nm, tension: 0.2 mN/m", waits);
+  EXPECT_THAT(pulled, AllOf(HasSubstr("is 1 of E h"), HasSubstr("a `young` of 7 kPa"), HasSubstr("[E696]")));
+  EXPECT_THAT(with_law("stvk, young: 7 kPa, thickness: 200 nm, tension: 0.2 mN/m", waits), Not(HasSubstr("E696")))
+      << "what the help says helps";
 }
 
 TEST(Bodies, ShellsThatOnlyGrowAreNotWarnedOf) {
