@@ -18,8 +18,9 @@ bool on_this_machine(const std::string& host) {
   return gethostname(name, sizeof name - 1) == 0 && host == name;
 }
 
-/// Whether a process has ended and nobody has asked how: it is still listed then.
+/// Also of a process that has ended and that nobody has asked how: it is still listed then.
 bool has_ended(pid_t process) {
+  if (kill(process, 0) != 0) return errno == ESRCH;
   std::ifstream file("/proc/" + std::to_string(process) + "/stat");
   std::string text;
   std::getline(file, text);
@@ -45,7 +46,7 @@ Result<RunOverview> overview_of(const std::filesystem::path& run) {
   overview.status.state = overview.record.state;
   const auto process = static_cast<pid_t>(overview.status.process);
   if (overview.record.state == scenarios::RunState::kRunning && process > 0 && on_this_machine(overview.record.host))
-    overview.lost = (kill(process, 0) != 0 && errno == ESRCH) || has_ended(process);
+    overview.lost = has_ended(process);
   return overview;
 }
 

@@ -13,6 +13,7 @@
 #include "core/numbers/number_text.h"
 #include "core/shell_word.h"
 #include "results/file_io.h"
+#include "results/series_reader.h"
 
 namespace morula::scenarios {
 namespace fs = std::filesystem;
@@ -89,19 +90,6 @@ Status filter_lines(const fs::path& path, std::uint64_t length, const std::funct
     begin = end + 1;
   }
   return kept == text ? Status{} : write_file_atomically(path, kept);
-}
-
-/// Whether a line has so many numbers, or nothing in their places, between commas.
-bool is_row(std::string_view line, std::size_t numbers) {
-  for (std::size_t begin = 0; numbers > 0; --numbers) {
-    const std::size_t end = std::min(line.find(',', begin), line.size());
-    double value = 0.0;
-    const auto [read, problem] = std::from_chars(line.data() + begin, line.data() + end, value);
-    if (end > begin && (problem != std::errc() || read != line.data() + end)) return false;
-    if (end == line.size()) return numbers == 1;
-    begin = end + 1;
-  }
-  return false;
 }
 
 Result<InputRecord> copy_input(const InputFile& input, const fs::path& run) {
@@ -235,10 +223,9 @@ Result<bool> RunFolder::cut_back(double time, const TextLengths& lengths) const 
   std::size_t columns = 0;
   MORULA_TRY(filter_lines(series(), kWholeText, [&](const std::string& line, std::size_t number) {
     if (number == 0) columns = 1 + static_cast<std::size_t>(std::ranges::count(line, ','));
-    if (number == 0 || !is_row(line, columns)) return number == 0;
-    double at = 0.0;
-    const auto [end, problem] = std::from_chars(line.data(), line.data() + line.size(), at);
-    return problem == std::errc() && at <= time;
+    if (number == 0) return true;  // the header
+    const auto row = numbers_of_row(line);
+    return row && row->size() == columns && row->front() <= time;
   }));
   std::error_code none;
   const std::uintmax_t length = fs::file_size(events(), none);

@@ -73,6 +73,13 @@ Status read_row(std::string_view line, std::size_t number, const std::string& or
 
 }  // namespace
 
+std::optional<std::vector<double>> numbers_of_row(std::string_view line) {
+  std::vector<double> out;
+  for (const std::string_view field : fields_of(line))
+    if (!number_of(field, out.emplace_back())) return std::nullopt;
+  return out;
+}
+
 const SeriesColumn* SeriesTable::find(std::string_view name) const {
   for (const SeriesColumn& column : columns)
     if (column.name == name) return &column;

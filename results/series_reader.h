@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,5 +40,8 @@ Result<SeriesTable> read_series(const std::filesystem::path& path, LastLine last
 
 /// The same from text; `origin` is the file's name in messages.
 Result<SeriesTable> parse_series(std::string_view text, const std::string& origin, LastLine last = LastLine::kBeingWritten);
+
+/// The numbers of a row, not a number where a field is empty; nothing where a field is none.
+std::optional<std::vector<double>> numbers_of_row(std::string_view line);
 
 }  // namespace morula::scenarios

@@ -75,13 +75,18 @@ void check_sheets_of_divisions(BuildContext& c) {
   });
 }
 
+std::uint64_t founders_of(const Study& study) {
+  std::uint64_t out = 0;
+  for (const InitialCells& block : study.initial) out += block.count;
+  return out;
+}
+
 /// Tension and adhesion draw faces out where cells touch: a law of small stretches bears them while they are a small part of E h (eight cells lived at 0.1
 /// of it, and ended at 0.25).
 void check_sheets_under_tension(BuildContext& c) {
   constexpr double kMuch = 0.15;
-  std::uint64_t founders = 0;
-  for (const InitialCells& block : c.study.initial) founders += block.count;
-  for (std::size_t i = 0; i < c.study.model.types.size() && founders > 1; ++i) {
+  if (founders_of(c.study) < 2) return;
+  for (std::size_t i = 0; i < c.study.model.types.size(); ++i) {
     const auto& [name, place, t] = c.draft.cell_types[i];
     const dcm::ShellParameters& shell = c.study.model.types[i].shell;
     const double adhesion = c.study.model.pair(i, i).adhesion, bears = t.young.value * t.thickness.value;
@@ -99,8 +104,7 @@ void check_sheets_under_tension(BuildContext& c) {
 
 /// E406 for named cells whose founder the study has not.
 void check_named_cells(BuildContext& c) {
-  std::uint64_t founders = 0;
-  for (const InitialCells& block : c.study.initial) founders += block.count;
+  const std::uint64_t founders = founders_of(c.study);
   const auto check = [&](const std::string& text, const Place& place) {
     if (const auto id = cell_id_of(text); id && id->founder_number() > founders && founders > 0)
       c.diagnostics.error(406, place,

@@ -125,11 +125,13 @@ Status RunLoop::go_back(const CheckpointInfo& checkpoint) {
   const double time = simulation_->tissue().clock.time;
   const Result<bool> events_lost = folder_.cut_back(time, checkpoint.texts);
   MORULA_TRY(agree(events_lost.ok() ? Status{} : Status(events_lost.error()), comm_));
+  std::size_t snapshots = 0;
   const auto go_on_with_results = [&]() -> Status {
     MORULA_TRY(truncate_snapshots(folder_.results(), time, comm_));
     MORULA_TRY(begin_results(folder_.results(), results_head(study_), comm_));  // where the file is gone
     if (!comm_.is_root()) return agree({}, comm_);
     const auto listed = list_snapshots(folder_.results());
+    if (listed.ok()) snapshots = listed->size();
     return agree(listed.ok() ? Status{} : Status(listed.error()), comm_);
   };
   MORULA_TRY(write_results(go_on_with_results));
@@ -137,7 +139,7 @@ Status RunLoop::go_back(const CheckpointInfo& checkpoint) {
     warn(
         "events.jsonl is damaged: some of what happened up to here is lost from it, and criteria, report and lineage know of the rest "
         "alone");
-  return tell_what_is_lost();
+  return tell_what_is_lost(snapshots);
 }
 
 Status RunLoop::write_results(const std::function<Status()>& write) {

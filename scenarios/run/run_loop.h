@@ -56,8 +56,8 @@ class RunLoop {
   Status write_moment(const Measures& measures);
   /// series.csv and events.jsonl into results.h5. Collective.
   Status write_tables();
-  /// After going back: warns where rows of the series and snapshots are not as many; a series that cannot be read is an error. Collective.
-  Status tell_what_is_lost();
+  /// After going back: warns where rows of the series and snapshots (known at the root) are not as many; a series that cannot be read is an error. Collective.
+  Status tell_what_is_lost(std::size_t snapshots);
   Status check_limits(const Measures& measures);
   Status check_packing(const Measures& measures);
   [[nodiscard]] Status check_capped_start() const;
