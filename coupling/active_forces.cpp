@@ -138,6 +138,8 @@ std::vector<Vec3d> Simulation::external_forces(double time, std::span<const Vec3
   std::vector<Vec3d> out = mechanics_->spread(tissue_, forces_on_cells(time));
   add_surface_loads(model_, tissue_, time, LoadsThat::kDoNotFollow, out);
   add_lumen_forces(model_, tissue_, time, comm_, out);
+  const std::vector<Vec3d> of_fluid = pushes_on_spheres(model_, tissue_, time);
+  for (std::size_t i = 0; i < of_fluid.size(); ++i) out[tissue_.shells.node_count() + i] += of_fluid[i];
   add_protrusions(out);
   add_crawling(walk, out);
   return out;

@@ -57,7 +57,15 @@ std::vector<CellVariable> cell_variables(const Model& model) {
       }
   for (const Trait trait : kTraits)
     if (any_varies(model, trait)) out.push_back({name_of(trait), "1", AtDivision::kSet});
+  for (const Lumen& lumen : model.lumens)
+    if (lumen.by_sight)
+      for (const char* axis : {"/x", "/y", "/z"}) out.push_back({"cavity/" + lumen.name + axis, "um^2", AtDivision::kUsual});
   return out;
+}
+
+std::size_t cavity_variables(const Model& model, std::size_t lumen) {
+  const std::vector<CellVariable> all = cell_variables(model);
+  return static_cast<std::size_t>(std::ranges::find(all, "cavity/" + model.lumens[lumen].name + "/x", &CellVariable::name) - all.begin());
 }
 
 void number_trait_variables(Model& model) {

@@ -66,6 +66,9 @@ void number_trait_variables(Model& model);
 /// renewal of meshes where a type has it, those of its behaviours, "<behaviour>/<variable>", and one for each trait in which a type varies.
 std::vector<CellVariable> cell_variables(const Model& model);
 
+/// Number of the first of three variables of a lumen that is found by sight, "cavity/<name>/x" to z: what its eye sees of a sphere, ∫ n dA with n away from the
+/// eye [µm²].
+std::size_t cavity_variables(const Model& model, std::size_t lumen);
 /// Number of a variable of the renewal of meshes, in a model that has a type with it.
 std::size_t mesh_renewal_variable(const Model& model, MeshRenewal which);
 /// Number of a variable of meshes of their own, in a model that has a type with them.

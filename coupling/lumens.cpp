@@ -4,7 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "coupling/cell_variables.h"
 #include "coupling/face_marks.h"
+#include "coupling/neighbourhoods.h"
 #include "coupling/sight.h"
 
 namespace morula {
@@ -40,23 +42,49 @@ void for_faces(const Tissue& tissue, int mark, F&& function) {
   }
 }
 
+/// Whether a cell lies over the place from where a cavity is looked at.
+bool lies_over(const Vec3d& eye, const BodyOfRow& body, const Tissue& tissue) {
+  if (!body.is_shell) return norm(tissue.spheres.position[body.number] - eye) < tissue.spheres.radius[body.number];
+  if (!box_of(tissue, body).contains(eye)) return false;
+  const auto x = tissue.shells.nodes(body.number);
+  double shown = 0.0;
+  for (const Triangle& t : tissue.shells.topology(body.number).faces()) shown += solid_angle(x[t[0]] - eye, x[t[1]] - eye, x[t[2]] - eye);
+  return shown < -2.0 * std::numbers::pi;  // −4π from within, 0 from elsewhere
+}
+
+/// Variables of the cells that say what the fluid of a lumen touches of spheres.
+std::span<VariableColumn> sides_of_spheres(const Model& model, std::size_t lumen, Cells& cells) {
+  cells.declare(cell_variables(model));
+  return std::span(cells.variables).subspan(cavity_variables(model, lumen), 3);
+}
+
 /// Marks the faces, and notes what else is a wall.
-void mark_by_sight(const Lumen& lumen, std::span<const RigidSurface> obstacles, Tissue& tissue, LumenState& state, const Comm& comm) {
+void mark_by_sight(const Model& model, std::size_t number_of_lumen, std::span<const RigidSurface> obstacles, Tissue& tissue,
+                   const Comm& comm) {
+  const Lumen& lumen = model.lumens[number_of_lumen];
+  LumenState& state = tissue.lumens[number_of_lumen];
   SightMap map(lumen.center, lumen.reach);
   dcm::Shells& shells = tissue.shells;
   std::uint32_t number = 0;
   std::vector<std::uint32_t> first_face{0};
-  for (std::size_t s = 0; s < shells.size(); ++s) {
-    const auto x = std::as_const(shells).nodes(s);
-    for (const Triangle& t : shells.topology(s).faces()) {
+  bool covered_eye = false;
+  for (const BodyOfRow& body : bodies_of(tissue.cells)) {
+    const bool over = lies_over(lumen.center, body, tissue);
+    covered_eye = covered_eye || over;
+    if (!body.is_shell) {
+      map.add_ball(tissue.spheres.position[body.number], over ? 0.0 : tissue.spheres.radius[body.number]);
+      continue;
+    }
+    const auto x = std::as_const(shells).nodes(body.number);
+    for (const Triangle& t : shells.topology(body.number).faces()) {
       const Vec3d normal = cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]);
       const bool outside = dot(normal, x[t[0]] - lumen.center) < 0.0;
-      map.add_triangle(x[t[0]], x[t[1]], x[t[2]], outside ? number : SightMap::kNothing);
+      if (!over) map.add_triangle(x[t[0]], x[t[1]], x[t[2]], outside ? number : SightMap::kNothing);
       ++number;
     }
     first_face.push_back(number);
   }
-  for (std::size_t i = 0; i < tissue.spheres.size(); ++i) map.add_ball(tissue.spheres.position[i], tissue.spheres.radius[i]);
+  state.hidden = comm.any(covered_eye) ? 1.0 : 0.0;
   for (std::size_t o = 0; comm.is_root() && o < obstacles.size(); ++o) {
     const auto at = [&](std::uint32_t node) { return obstacles[o].position[node] + tissue.obstacle_offset[o]; };
     for (const Triangle& t : obstacles[o].topology->faces()) map.add_wall(at(t[0]), at(t[1]), at(t[2]));
@@ -73,7 +101,11 @@ void mark_by_sight(const Lumen& lumen, std::span<const RigidSurface> obstacles, 
   const SightMap::InTheWay others = map.in_the_way(comm);
   state.before_others = others.volume;
   state.other_directions = others.directions;
-  state.wall_x = others.wall.x, state.wall_y = others.wall.y, state.wall_z = others.wall.z;
+  state.wall_x = others.normal.x, state.wall_y = others.normal.y, state.wall_z = others.normal.z;
+  const std::span<VariableColumn> side = sides_of_spheres(model, number_of_lumen, tissue.cells);
+  for (const BodyOfRow& body : bodies_of(tissue.cells))
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      side[axis].values.set(body.row, body.is_shell ? 0.0 : others.balls[body.number][axis], tissue.cells.rows.capacity());
 }
 
 /// What the faces of a lumen are, over all ranks.
@@ -140,7 +172,7 @@ void look_into_lumens(const Model& model, std::span<const RigidSurface> obstacle
     const bool first = state.looked_at < lumen.from;
     state.looked_at = tissue.clock.time;
     looked = true;
-    if (lumen.by_sight) mark_by_sight(lumen, obstacles, tissue, state, comm);
+    if (lumen.by_sight) mark_by_sight(model, k, obstacles, tissue, comm);
     if (!first) continue;
     measure_lumens(model, tissue, comm);
     if (lumen.keeps_solute) state.amount = lumen.pressure * state.volume / kGasEnergy;
@@ -168,6 +200,21 @@ void add_lumen_forces(const Model& model, const Tissue& tissue, double time, con
       for (const std::uint32_t node : t) external[node] += push;
     });
   }
+}
+
+std::vector<Vec3d> pushes_on_spheres(const Model& model, const Tissue& tissue, double time) {
+  std::vector<Vec3d> out;
+  for (std::size_t k = 0; k < tissue.lumens.size(); ++k) {
+    const double pressure = lumen_pressure(model.lumens[k], tissue.lumens[k], time);
+    if (pressure == 0.0 || !model.lumens[k].by_sight) continue;
+    const auto side = std::span(tissue.cells.variables).subspan(cavity_variables(model, k), 3);
+    if (std::ranges::all_of(side, [](const VariableColumn& axis) { return axis.values.empty(); })) continue;
+    out.resize(tissue.spheres.size());
+    for (const BodyOfRow& body : bodies_of(tissue.cells))
+      if (!body.is_shell)
+        out[body.number] += Vec3d{side[0].values[body.row], side[1].values[body.row], side[2].values[body.row]} * pressure;
+  }
+  return out;
 }
 
 }  // namespace morula

@@ -19,8 +19,8 @@ inline constexpr double kBurst = 0.5;
 /// faces that were found leave open a twentieth of the directions in which a wall was seen: cells that part have faces between them that were in
 /// contact. Where so much of the walls is no face that it finds, as behind a rim, they are found in every step. A lumen that keeps its solute gets
 /// its amount when it is first seen. A ray goes from `center` in every direction of a SightMap; faces of shells that show their outside and of
-/// which at least half is seen bound the cavity; spheres stand in the way, and `obstacles` (those of the study and the walls of the domain, as
-/// Tissue::obstacle_offset has them). Collective.
+/// which at least half is seen bound the cavity, spheres that are seen (cavity_variables()), and `obstacles` (those of the study and the walls of the domain, as
+/// Tissue::obstacle_offset has them). A cell that lies over `center` is left out. Collective.
 void look_into_lumens(const Model& model, std::span<const RigidSurface> obstacles, Tissue& tissue, const Comm& comm);
 
 /// Volume, area, cover and pressure of the lumens at the present positions and time. Collective.
@@ -36,9 +36,11 @@ double lumen_pressure(const Lumen& lumen, const LumenState& state, double time);
 
 /// Forces of the fluids on the nodes of all shells of the rank, added to `external` (by shell node): a third of P A_T (−n_T + ⟨n⟩) to each corner
 /// of the faces of the cavity. ⟨n⟩ = (Σ A n − O)/Σ A is zero where the cavity is closed; across gaps it stands for the fluid's push on what is not there, so
-/// that a cavity never drives the tissue: the net force is zero to rounding. O = ∫ n dA is that of the obstacles and walls that close it, which bear
-/// P O themselves: a dome on a floor is lifted by it. Strengths as external loads: at `time`, on the shape of the step's
-/// start. Collective.
+/// that a cavity never drives the tissue: the net force is zero to rounding. O = ∫ n dA is that of the spheres, obstacles and walls that close it, which bear
+/// P O themselves: a dome on a floor is lifted by it. Strengths as external loads: at `time`, on the shape of the step's start. Collective.
 void add_lumen_forces(const Model& model, const Tissue& tissue, double time, const Comm& comm, std::span<Vec3d> external);
+
+/// The same on the spheres of the rank [nN]: P ∫ n dA over what was seen of each. Empty: there are none in the walls.
+std::vector<Vec3d> pushes_on_spheres(const Model& model, const Tissue& tissue, double time);
 
 }  // namespace morula

@@ -48,7 +48,8 @@ struct LumenState {
   // Of spheres, obstacles and walls that are seen, when it was last looked at:
   double before_others = 0.0;                       ///< volume between the centre and them [µm³]
   double other_directions = 0.0;                    ///< part of all directions in which they are seen
-  double wall_x = 0.0, wall_y = 0.0, wall_z = 0.0;  ///< ∫ n dA of obstacles and walls alone, n out of the cavity [µm²]
+  double wall_x = 0.0, wall_y = 0.0, wall_z = 0.0;  ///< ∫ n dA of them, n out of the cavity [µm²]
+  double hidden = 0.0;                              ///< 1: a cell lay over the centre then, and was left out
 };
 
 /// A neighbour of a cell that has exchanged its body, until it is told how far it went (coupling/exchange_effects.h). Nothing else depends on it.

@@ -37,8 +37,9 @@ void for_each_lumen_field(Visit&& visit) {
   visit("wall_x", "um^2", &LumenState::wall_x);
   visit("wall_y", "um^2", &LumenState::wall_y);
   visit("wall_z", "um^2", &LumenState::wall_z);
+  visit("hidden", "1", &LumenState::hidden);
 }
-static_assert(sizeof(LumenState) == 11 * 8, "list every member of LumenState in for_each_lumen_field");
+static_assert(sizeof(LumenState) == 12 * 8, "list every member of LumenState in for_each_lumen_field");
 
 /// visit(name, units, member of Field): what it has beside grid, bricks and concentrations.
 template <class Visit>

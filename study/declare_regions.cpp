@@ -190,7 +190,10 @@ void declare_mark(Section& s, draft::Mark& m) {
 }
 
 void declare_lumen(Section& s, draft::Lumen& l) {
-  center_key(s, l.center, "A point within the cavity. The faces that can be seen from it bound the cavity.");
+  center_key(s, l.center,
+             "A point within the cavity. What can be seen from it bounds the cavity: faces of shells, spheres, obstacles. A cell that lies "
+             "over it "
+             "is left out. A cell that floats in the fluid is pushed from the side of this point alone.");
   s.text({.name = "faces",
           .doc = "seen: faces of shells in sight of `center`, found anew every now and then; or the name of a mark.",
           .fallback = "seen",
@@ -225,19 +228,20 @@ void declare_lumen(Section& s, draft::Lumen& l) {
               .example = "30 min",
               .source = "chosen"},
              l.plain, &Lumen::from);
-  s.quantity(
-      {.name = "pressure",
-       .doc = "Pressure of the fluid above that of the medium; with `solute: kept`, that at the volume at which the cavity is first seen.",
-       .quantity = Q::kPressure,
-       .required = true,
-       .low = -100.0,
-       .high = 100.0,
-       .example = "20 Pa"},
-      l.pressure);
+  s.quantity({.name = "pressure",
+              .doc = "Pressure of the fluid above that of the medium; with `solute: kept`, that at the volume at which the cavity is first "
+                     "seen. It is "
+                     "there as if holes were closed, until half of all directions are open; a run warns from a twentieth on.",
+              .quantity = Q::kPressure,
+              .required = true,
+              .low = -100.0,
+              .high = 100.0,
+              .example = "20 Pa"},
+             l.pressure);
   s.word(
       {.name = "solute",
        .doc = "free: the pressure is as given, whatever the volume (such a cavity may grow without end); kept: P = R T n/V with the amount "
-              "of solute n of the beginning.",
+              "n of the beginning, of solute beyond what the medium has: the cavity gives way like a gas of this pressure.",
        .fallback = "free",
        .words = {"free", "kept"},
        .example = "kept",

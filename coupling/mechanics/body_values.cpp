@@ -72,6 +72,20 @@ std::vector<SphereTouch> touches_of_spheres(const Workspace& work) {
   return work.terms.contacts->layer().touches_of_spheres(contact_scene(work.scene, work.geometry.now()));
 }
 
+struct FluidOnSphere {
+  std::size_t sphere;
+  Vec3d place, force;  ///< from its centre [µm], [nN]
+};
+
+/// What the fluid of cavities does to spheres in their walls: in the middle of what it touches of each.
+std::vector<FluidOnSphere> fluid_on_spheres(const Workspace& work, const Tissue& tissue) {
+  std::vector<FluidOnSphere> out;
+  const std::vector<Vec3d> push = pushes_on_spheres(work.setting.model, tissue, tissue.clock.time);
+  for (std::size_t i = 0; i < push.size(); ++i)
+    if (norm2(push[i]) > 0.0) out.push_back({i, normalized(push[i]) * -tissue.spheres.radius[i], push[i]});
+  return out;
+}
+
 std::vector<double> pressures_from(const Workspace& work, const Tissue& tissue, std::span<const SymMat3<double>> of_shells,
                                    std::span<const SphereTouch> touches) {
   const Scene& scene = work.scene;
@@ -81,6 +95,7 @@ std::vector<double> pressures_from(const Workspace& work, const Tissue& tissue, 
   for (std::size_t i = 0; i < virial.size(); ++i) virial[i] = work.terms.spheres->virial(i);
   for (const SphereTouch& touch : touches)
     if (scene.bodies()[touch.sphere].owned) virial[touch.sphere - scene.first_sphere()] -= dot(touch.place, touch.force);
+  for (const auto& [sphere, place, force] : fluid_on_spheres(work, tissue)) virial[sphere] += dot(place, force);
   out.resize(of_shells.size() + virial.size());
   parallel_for(work.setting.threads, virial.size(), [&](std::size_t i) {
     out[of_shells.size() + i] = cbm::sphere_pressure(virial[i], ball_volume(tissue.spheres.radius[i]),
@@ -100,6 +115,7 @@ void add_values_of_spheres(const Workspace& work, const Tissue& tissue, std::spa
     sum.with_cells += touch.area;
     sum.virial += virial_of(touch.place, touch.force * -1.0);
   }
+  for (const auto& [sphere, place, force] : fluid_on_spheres(work, tissue)) pressing[sphere].virial += virial_of(place, force);
   for (std::size_t i = 0; i < scene.owned_spheres(); ++i) {
     const CellType& type = work.setting.model.types[tissue.spheres.type[i]];
     const double r = tissue.spheres.radius[i], modulus = type.shell.bulk_modulus, surface = ball_surface(r);

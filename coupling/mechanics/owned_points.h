@@ -13,6 +13,12 @@
 
 namespace morula {
 
+/// How far the bodies of a tissue go, of shells and of spheres that which is more; never more than the largest way of a body [µm].
+struct WayOfBodies {
+  double weighted = 0.0;  ///< 1.7 (Σ way⁴/n)^(1/4): few that go far count more than many that do not
+  double mean = 0.0;      ///< of shells 1.7 (Σ way²/n)^(1/2); spheres have no contact lines that snap, and count as before
+};
+
 /// Loops and sums over the points that are unknowns of this rank: those of bodies that move, and of what is within them.
 struct OwnedPoints {
   const Scene& scene;
@@ -67,14 +73,19 @@ struct OwnedPoints {
   /// where a tenth of them go, or all, it is the largest; one of 162 that goes alone counts half (decisions 0052, 0058). What all spheres do in common does
   /// not count (common_way.h). Collective.
   template <class Vector>
-  [[nodiscard]] double way_of_bodies(const Vector& vector, const CommonDrift& of_spheres) const {
+  [[nodiscard]] WayOfBodies way_of_bodies(const Vector& vector, const CommonDrift& of_spheres) const {
     struct Kind {
       OrderFreeSum sum{};
       double largest = 0.0;  ///< both of fourth powers
       std::int64_t count = 0;
       void add(double fourth) { sum.add(fourth), largest = std::max(largest, fourth), ++count; }
     };
-    constexpr double kTimes4 = 1.7 * 1.7 * 1.7 * 1.7;
+    struct Ways {
+      Kind shells, spheres;  ///< shells and what is in them
+      OrderFreeSum squares;  ///< of shells
+      void add_shell(double fourth) { shells.add(fourth), squares.add(std::sqrt(fourth)); }
+    };
+    constexpr double kTimes2 = 1.7 * 1.7, kTimes4 = kTimes2 * kTimes2;
     const auto fourth_power = [&](std::uint32_t first, std::uint32_t count) {
       double sum = 0.0, largest = 0.0;
       for (std::uint32_t i = first; i < first + count; ++i) {
@@ -84,29 +95,32 @@ struct OwnedPoints {
       }
       return std::min(kTimes4 * sum / count, largest);
     };
-    std::vector<std::array<Kind, 2>> by_thread(static_cast<std::size_t>(threads));  // shells and what is in them, spheres
+    std::vector<Ways> by_thread(static_cast<std::size_t>(threads));
     for_bodies([&](std::size_t t, const ContactBody& body) {
-      if (body.shape == BodyShape::kSurface) return by_thread[t][0].add(fourth_power(body.first_point, body.point_count));
+      if (body.shape == BodyShape::kSurface) return by_thread[t].add_shell(fourth_power(body.first_point, body.point_count));
       const double square = norm2(vector(body.first_point) - of_spheres.at(scene.position()[body.first_point]));
-      by_thread[t][1].add(square * square);
+      by_thread[t].spheres.add(square * square);
     });
     for (const Scene::Inner& inner : scene.inner())
-      if (scene.bodies()[inner.shell].active()) by_thread[0][0].add(fourth_power(inner.first_point, inner.point_count));
-    OrderFreeSum sum[2];
-    double largest[2] = {0.0, 0.0}, total[2];
+      if (scene.bodies()[inner.shell].active()) by_thread[0].add_shell(fourth_power(inner.first_point, inner.point_count));
+    OrderFreeSum sums[3];
+    double largest[2] = {0.0, 0.0}, totals[3];
     std::int64_t count[2] = {0, 0};
-    for (const auto& one : by_thread)
-      for (std::size_t kind = 0; kind < 2; ++kind) {
-        sum[kind] += one[kind].sum, count[kind] += one[kind].count;
-        largest[kind] = std::max(largest[kind], one[kind].largest);
-      }
-    comm.sum(sum, total);
+    for (const Ways& one : by_thread) {
+      sums[0] += one.shells.sum, sums[1] += one.spheres.sum, sums[2] += one.squares;
+      count[0] += one.shells.count, count[1] += one.spheres.count;
+      largest[0] = std::max(largest[0], one.shells.largest), largest[1] = std::max(largest[1], one.spheres.largest);
+    }
+    comm.sum(sums, totals);
     comm.sum(count);
-    double most = 0.0;
-    for (std::size_t kind = 0; kind < 2; ++kind)
-      if (count[kind] > 0)
-        most = std::max(most, std::min(kTimes4 * total[kind] / static_cast<double>(count[kind]), comm.max(largest[kind])));
-    return std::sqrt(std::sqrt(most));
+    double weighted[2] = {0.0, 0.0}, mean_of_shells = 0.0;
+    for (std::size_t kind = 0; kind < 2; ++kind) {
+      if (count[kind] == 0) continue;
+      const double most = comm.max(largest[kind]), n = static_cast<double>(count[kind]);
+      weighted[kind] = std::sqrt(std::sqrt(std::min(kTimes4 * totals[kind] / n, most)));
+      if (kind == 0) mean_of_shells = std::sqrt(std::min(kTimes2 * totals[2] / n, std::sqrt(most)));
+    }
+    return {std::max(weighted[0], weighted[1]), std::max(mean_of_shells, weighted[1])};
   }
   template <class Vectors>
   [[nodiscard]] double largest(const Vectors& by_point) const {

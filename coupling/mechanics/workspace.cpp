@@ -16,10 +16,10 @@ void give_back_room(std::vector<T>& vector) {
   std::vector<T>().swap(vector);
 }
 
-/// How far a point may go in one step before the step is refused: ghosts must reach that far. Collective.
-double step_margin(const Model& model, const Tissue& tissue, const Comm& comm) {
-  const bool has_spheres = comm.any(tissue.spheres.size() > 0);
-  return kFurtherThanAllowed * allowed_ways(model).of_point / (has_spheres ? AllowedWays::kSphereCounts : 1.0);
+/// How far a point may go in one step before the step is refused: ghosts must reach that far.
+double step_margin(const Model& model) {
+  static_assert(kFurthestPoint >= kFurtherThanAllowed / AllowedWays::kSphereCounts);
+  return kFurthestPoint * allowed_ways(model).of_point;
 }
 
 bool has_regional_adhesion(const Model& model) {
@@ -91,8 +91,7 @@ void build_scene(Workspace& work, const Tissue& tissue, const Settling* settling
   const Model& model = work.setting.model;
   const ContactSettings& contact = work.terms.contacts->layer().settings();
   const double slack = contact.body_skin;
-  const double reach =
-      std::max(contact.range, contact.sphere_reach) + 2.0 * contact.body_skin + slack + 2.0 * step_margin(model, tissue, work.setting.comm);
+  const double reach = std::max(contact.range, contact.sphere_reach) + 2.0 * contact.body_skin + slack + 2.0 * step_margin(model);
   std::optional<BodyChanges> changes;
   if (mend)
     changes = work.scene.renew(tissue, model.space, reach, work.setting.shapes, work.setting.comm);

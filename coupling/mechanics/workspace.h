@@ -80,8 +80,10 @@ struct AllowedWays {
   static constexpr double kSphereCounts = 0.5;
 };
 AllowedWays allowed_ways(const Model& model);
-/// A step that went so many times further is refused.
+/// A step in which a tissue went so many times further is refused.
 inline constexpr double kFurtherThanAllowed = 1.5;
+/// The same of a point where a few bodies went further, and Newton's method has come to its end: a sphere here counts as any other (decision 0093).
+inline constexpr double kFurthestPoint = 3.0;
 
 /// Everything that mechanics works with. It can be rebuilt from the tissue at any time, and rebuilding it never changes a result.
 struct Workspace {

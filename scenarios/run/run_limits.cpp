@@ -63,7 +63,7 @@ Status RunLoop::check_limits(const Measures& m) {
     if (!(m.field_balance[f] <= limits.field_balance)) return crossed(balance, {});
     if (m.field_balance[f] > kWarnAt * limits.field_balance) warn_near_limit(kBalance, balance);
   }
-  tell_open_cavities(m);
+  tell_cavities(m);
   if (m.outside_fields > 0)
     warn_near_limit(kOutsideFields, std::to_string(m.outside_fields) + (m.outside_fields == 1 ? " cell is" : " cells are") +
                                         " beyond the domain at " + time_text(m.time) +

@@ -80,13 +80,15 @@ class RunLoop {
     kOutsideFields = 128,
     kCreeping = 256,
     kDrawnOut = 512,
-    kCavityOpen = 1024
+    kCavityOpen = 1024,
+    kCavityLeaks = 2048,
+    kCavityHidden = 4096
   };
   void warn_near_limit(Warned what, const std::string& text);
   /// Writes into results.h5; where its content is in the way, once more into a new one. Collective.
   Status write_results(const std::function<Status()>& write);
   void tell_idle_loads();
-  void tell_open_cavities(const Measures& measures);
+  void tell_cavities(const Measures& measures);
   /// Warns of a run that hardly moves on: nobody looks at the step of a run over night.
   void tell_creeping(const StepOutcome& outcome);
   void tell_events();

@@ -107,18 +107,40 @@ void RunLoop::tell_events() {
 }
 
 /// What a cavity held is gone once it is open, and all checks may pass.
-void RunLoop::tell_open_cavities(const Measures& m) {
+void RunLoop::tell_cavities(const Measures& m) {
+  constexpr double kLeaks = 0.05;  // of all directions
   const Tissue& tissue = simulation_->tissue();
-  std::vector<std::string> open;
+  std::vector<std::string> open, leaking, hidden;
   for (std::size_t k = 0; k < tissue.lumens.size(); ++k) {
     const Lumen& lumen = study_.model.lumens[k];
-    if (tissue.lumens[k].looked_at >= lumen.from && tissue.lumens[k].covered < kBurst) open.push_back(lumen.name);
+    const LumenState& state = tissue.lumens[k];
+    if (state.hidden != 0.0) hidden.push_back(lumen.name);
+    if (state.looked_at < lumen.from) continue;
+    if (state.covered < kBurst)
+      open.push_back(lumen.name);
+    else if (state.covered < 1.0 - kLeaks)
+      leaking.push_back(lumen.name);
   }
-  if (open.empty()) return;
-  warn_near_limit(kCavityOpen, "open at " + time_text(m.time) +
-                                   ", and no cavity any more: " + joined(open, [](const std::string& name) { return "'" + name + "'"; }) +
-                                   ". More than half of the directions from the centre meet no wall, and the fluid presses nothing (" +
-                                   listed(open, [](const std::string& name) { return "open_" + name; }) + " in series.csv)");
+  const auto names = [](const std::vector<std::string>& all) {
+    return joined(all, [](const std::string& name) { return "'" + name + "'"; });
+  };
+  const auto columns = [](const std::vector<std::string>& all) {
+    return listed(all, [](const std::string& name) { return "open_" + name; }) + " in series.csv";
+  };
+  if (!open.empty())
+    warn_near_limit(kCavityOpen, "open at " + time_text(m.time) + ", and no cavity any more: " + names(open) +
+                                     ". More than half of the directions from the centre meet no wall, and the fluid presses nothing (" +
+                                     columns(open) + ")");
+  if (!leaking.empty())
+    warn_near_limit(
+        kCavityLeaks,
+        "at " + time_text(m.time) +
+            " more than a twentieth of the directions from the centre meet no wall of the cavity: " + names(leaking) +
+            ". Its fluid presses as if the holes were closed; water would leave through one of some micrometres within seconds (" +
+            columns(leaking) + ")");
+  if (!hidden.empty())
+    warn_near_limit(kCavityHidden, "at " + time_text(m.time) + " a cell lies over the `center` from which a cavity is looked at: " +
+                                       names(hidden) + ", and is left out of its walls. If it is one of them, choose another `center`");
 }
 
 void RunLoop::tell_creeping(const StepOutcome& outcome) {

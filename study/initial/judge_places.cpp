@@ -164,6 +164,15 @@ class Judge {
     if (bound_[i] - apart > limit) suspects_.insert({i});
   }
 
+  /// The variables of a cell of the study by their numbers in a model that has less.
+  [[nodiscard]] std::vector<double> variables_in(const Model& less, const CellState& cell) const {
+    const std::vector<CellVariable> all = cell_variables(study_.model);
+    std::vector<double> out;
+    for (const CellVariable& variable : cell_variables(less))
+      out.push_back(cell.variable(static_cast<std::size_t>(std::ranges::find(all, variable) - all.begin())));
+    return out;
+  }
+
   /// The contact of the shells in question as the run measures it in its first row.
   Status measure_shells() {
     if (suspects_.empty()) return {};
@@ -187,6 +196,8 @@ class Judge {
     model.lumens.clear();
     model.apical_springs.clear();
     Tissue tissue;
+    tissue.cells.declare(cell_variables(model));
+    for (CellRecord& record : records) record.row.variables = variables_in(model, record.row);
     put_together(tissue, std::move(records));
     MORULA_TRY_ASSIGN(auto simulation, Simulation::create(std::move(model), std::move(tissue), Comm(), 1));
     std::vector<Vec3d> ignored;

@@ -98,6 +98,73 @@ TEST(Lumen, SpheresAmongItsWallsBoundItToo) {
   EXPECT_NEAR(tissue.lumens[0].volume / enclosed_between_balls(centers), 1.0, 0.04);
 }
 
+/// What each of the twelve bears, a shell or a sphere, and nothing is left over.
+TEST(Lumen, PressesOnSpheresAmongItsWallsAsOnShells) {
+  const Model model = model_of_cavity();
+  ShapeLibrary shapes;
+  std::vector<BodyKind> bodies(12, BodyKind::kShell);
+  bodies[0] = bodies[3] = bodies[7] = BodyKind::kSphere;
+  const auto borne = [&](const std::vector<BodyKind>& as) {
+    Tissue tissue = test::make_tissue(model, shapes, walls(), as, 642, kRadius);
+    mark_new_shells(model, tissue);
+    look_into_lumens(model, {}, tissue, Comm());
+    std::vector<Vec3d> force(tissue.shells.node_count()), out;
+    add_lumen_forces(model, tissue, 0.0, Comm(), force);
+    const std::vector<Vec3d> on_spheres = pushes_on_spheres(model, tissue, 0.0);
+    for (const BodyOfRow& body : bodies_of(tissue.cells)) {
+      Vec3d sum{};
+      if (body.is_shell)
+        for (std::uint32_t i = tissue.shells.first_node[body.number]; i < tissue.shells.first_node[body.number + 1]; ++i) sum += force[i];
+      else
+        sum = on_spheres[body.number];
+      out.push_back(sum);
+    }
+    return out;
+  };
+  const std::vector<Vec3d> alone = borne(std::vector(12, BodyKind::kShell)), mixed = borne(bodies);
+  Vec3d sum{};
+  for (std::size_t i = 0; i < 12; ++i) {
+    EXPECT_LT(norm(mixed[i] - alone[i]), 0.05 * norm(alone[i])) << i;
+    sum += mixed[i];
+  }
+  EXPECT_LT(norm(sum), 1e-12 * 12.0 * norm(alone[0]));
+}
+
+/// The walls are what they are without it.
+TEST(Lumen, LeavesOutACellThatLiesOverItsCentre) {
+  Model model = model_of_cavity();
+  model.lumens[0].renewed = 10.0;
+  for (const BodyKind kind : {BodyKind::kSphere, BodyKind::kShell}) {
+    ShapeLibrary shapes;
+    std::vector<Vec3d> at = walls();
+    at.push_back({200.0, 0, 0});  // beyond the eye's reach
+    std::vector<BodyKind> bodies(13, BodyKind::kShell);
+    bodies.back() = kind;
+    Tissue tissue = test::make_tissue(model, shapes, at, bodies, 162, kRadius);
+    mark_new_shells(model, tissue);
+    look_into_lumens(model, {}, tissue, Comm());
+    const LumenState before = tissue.lumens[0];
+    EXPECT_EQ(before.hidden, 0.0);
+    const auto move_last = [&](const Vec3d& way) {
+      if (kind == BodyKind::kSphere)
+        tissue.spheres.position.back() += way;
+      else
+        for (Vec3d& x : tissue.shells.nodes(12)) x += way;
+      tissue.clock.time += 20.0;
+      look_into_lumens(model, {}, tissue, Comm());
+    };
+    move_last({-198.0, 0, 0});
+    EXPECT_EQ(tissue.lumens[0].hidden, 1.0);
+    EXPECT_EQ(tissue.lumens[0].volume, before.volume);
+    EXPECT_EQ(tissue.lumens[0].pressure, before.pressure);
+    EXPECT_EQ(tissue.lumens[0].covered, before.covered);
+    for (const Vec3d& push : pushes_on_spheres(model, tissue, tissue.clock.time)) EXPECT_EQ(norm(push), 0.0);
+    move_last({198.0, 0, 0});
+    EXPECT_EQ(tissue.lumens[0].hidden, 0.0);
+    EXPECT_EQ(tissue.lumens[0].volume, before.volume);
+  }
+}
+
 TEST(Lumen, PushesOutwardsWithoutDrivingTheTissue) {
   const Model model = model_of_cavity();
   ShapeLibrary shapes;
@@ -278,8 +345,8 @@ TEST(SightMap, MeasuresWhatItSeesOfAWall) {
   const auto seen = square.in_the_way(Comm());
   EXPECT_NEAR(seen.volume / (400.0 * 5.0 / 3.0), 1.0, 5e-3);
   EXPECT_NEAR(seen.directions, 4.0 * std::asin(100.0 / 125.0) / (4.0 * std::numbers::pi), 1e-3);
-  EXPECT_NEAR(seen.wall.z, -400.0, 2.0);
-  EXPECT_NEAR(norm(seen.wall + Vec3d{0, 0, -seen.wall.z}), 0.0, 1.0);
+  EXPECT_NEAR(seen.normal.z, -400.0, 2.0);
+  EXPECT_NEAR(norm(seen.normal + Vec3d{0, 0, -seen.normal.z}), 0.0, 1.0);
   EXPECT_GT(map.in_the_way(Comm()).directions, seen.directions);
 }
 

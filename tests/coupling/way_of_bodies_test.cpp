@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "coupling/mechanics/contact_setup.h"
 #include "tests/coupling/tissue_fixture.h"
@@ -18,8 +19,8 @@ struct Bodies {
   int spheres = 0, shells = 0;
 };
 
-/// Way over displacement (of a point) of a step in which one sphere is pulled, or one shell, and nobody else goes anywhere.
-double counted(const Bodies& bodies, BodyKind pulled) {
+/// A step of cells that touch nobody, in which the first so many shells, or spheres, are pulled by this force [nN]. A body is allowed to go 0.3 µm.
+Result<StepReport, StepFault> pull(const Bodies& bodies, BodyKind pulled, int count, double with) {
   Model model = test::clusters_model();
   model.step.max_displacement = 0.3;
   model.contact.range = 1.0;
@@ -34,10 +35,15 @@ double counted(const Bodies& bodies, BodyKind pulled) {
   Tissue tissue = test::make_tissue(model, shapes, at, kind);
   tissue.shells.reference_volume = tissue.shells.rest_volume;
   Mechanics mechanics(model, {}, shapes, Comm(), 1);
-  const std::size_t shells = tissue.shells.size();
-  std::vector<Vec3d> force(tissue.cells.size());
-  force[pulled == BodyKind::kShell ? 0 : shells] = {2.0, 0, 0};  // by body: shells, then spheres
-  const auto report = mechanics.step(tissue, kStep, mechanics.spread(tissue, force));
+  std::vector<Vec3d> force(tissue.cells.size());  // by body: shells, then spheres
+  std::fill_n(force.begin() + (pulled == BodyKind::kShell ? 0 : static_cast<std::ptrdiff_t>(tissue.shells.size())), count,
+              Vec3d{with, 0, 0});
+  return mechanics.step(tissue, kStep, mechanics.spread(tissue, force));
+}
+
+/// Way over displacement (of a point) of a step in which one sphere is pulled, or one shell, and nobody else goes anywhere.
+double counted(const Bodies& bodies, BodyKind pulled) {
+  const auto report = pull(bodies, pulled, 1, 2.0);
   EXPECT_TRUE(report.ok()) << report.error().what;
   return report.ok() ? report->way / report->displacement : -1.0;
 }
@@ -56,6 +62,37 @@ TEST(WayOfBodies, ShellsAreComparedWithShellsAndSpheresWithSpheres) {
   EXPECT_NEAR(counted({.spheres = 1, .shells = 30}, BodyKind::kSphere), 2.0, 0.04);
   EXPECT_NEAR(counted({.spheres = 1, .shells = 40}, BodyKind::kShell), lone_of(40), 0.02);
 }
+
+/// Forces by which one shell goes 0.8 µm, which counts as more than 1.5 times what a body is allowed, also of thirty, and 3 µm, which no point may.
+struct Far {
+  double some, much;
+};
+
+Far far() {
+  const auto report = pull({.shells = 1}, BodyKind::kShell, 1, 2.0);
+  EXPECT_TRUE(report.ok()) << report.error().what;
+  const double force = report.ok() ? 2.0 / report->displacement : 0.0;
+  return {0.8 * force, 3.0 * force};
+}
+
+/// 1.7 (Σ way²/n)^(1/2) is what a tissue goes where a few jump, and what the next step is found from.
+TEST(WayOfBodies, AFewThatJumpDoNotStopOthers) {
+  const auto report = pull({.shells = 30}, BodyKind::kShell, 1, far().some);
+  ASSERT_TRUE(report.ok()) << report.error().what;
+  EXPECT_NEAR(report->displacement, 0.8, 0.02);
+  EXPECT_NEAR(report->way, 1.7 * 0.8 / std::sqrt(30.0), 0.01);
+}
+
+TEST(WayOfBodies, AStepIsRefusedWhereFewCellsAreAllOrManyGo) {
+  const Far force = far();
+  for (const auto& [shells, pulled] : {std::pair{1, 1}, std::pair{2, 1}, std::pair{30, 10}, std::pair{30, 30}}) {
+    const auto report = pull({.shells = shells}, BodyKind::kShell, pulled, force.some);
+    ASSERT_FALSE(report.ok()) << shells << " " << pulled;
+    EXPECT_TRUE(report.error().smaller_step_may_help);
+  }
+}
+
+TEST(WayOfBodies, NobodyGoesFurtherThanGhostsReach) { EXPECT_FALSE(pull({.shells = 100}, BodyKind::kShell, 1, far().much).ok()); }
 
 /// The same of spheres that are all pulled away from the middle, the more the further they are: a ball that swells.
 double counted_of_swelling(int side, bool with_obstacle) {

@@ -112,6 +112,8 @@ inline Model model_of_test_tissue() {
   model.fields[0].name = "oxygen";
   model.fields[1].name = "glucose";
   model.lumens.resize(2);
+  model.lumens[0].name = "lumen";
+  model.lumens[1].name = "cyst";
   return model;
 }
 

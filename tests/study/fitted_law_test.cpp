@@ -177,7 +177,7 @@ TEST(FittedLaw, SpheresComeTogetherWithTheFrictionThatWasFitted) {
   ASSERT_TRUE(study.ok()) << study.error().text();
   EXPECT_EQ(study->model.types[0].sphere.approach_factor, 0.05);
   EXPECT_THAT(study->warnings.text(), Not(HasSubstr("E542")));
-  const cbm::ContactTable::Entry& spheres = sphere_contact_table(study->model).entry(0, 0);
+  const cbm::ContactTable::Entry spheres = sphere_contact_table(study->model).entry(0, 0);
   EXPECT_DOUBLE_EQ(spheres.normal_friction, 2.5);
   EXPECT_DOUBLE_EQ(spheres.tangential_friction, 1.0);
   const ContactMaterial with_cells = contact_materials(study->model).front();
