@@ -23,7 +23,8 @@ LawInfo lumen_law() {
   return {.name = "lumen_pressure",
           .title = "Fluid of a cavity between cells",
           .equation =
-              "F_c = ⅓ P A_T (⟨n⟩ − n_T) on the faces that look into it, ⟨n⟩ = Σ A n/Σ A; P given, or P = R T n/V with the amount n kept",
+              "F_c = ⅓ P A_T (⟨n⟩ − n_T) on the faces that look into it, P ∫ n dA over what is seen of a sphere, n out of the cavity; ⟨n⟩ "
+              "= (Σ A n − Σ ∫ n dA)/Σ A; P given, or P = R T n/V with the amount n kept",
           .source = "van 't Hoff 1887; faces by sight from a point; zero net force: choice of this project",
           .parameters = {given_by_study("pressure", "pressure", "kPa", "P, or that of the beginning where the solute is kept.")}};
 }
