@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/mesh/mesh_check.h"
 #include "coupling/cell_variables.h"
 #include "coupling/face_marks.h"
 #include "coupling/neighbourhoods.h"
@@ -46,16 +47,13 @@ void for_faces(const Tissue& tissue, int mark, F&& function) {
 bool lies_over(const Vec3d& eye, const BodyOfRow& body, const Tissue& tissue) {
   if (!body.is_shell) return norm(tissue.spheres.position[body.number] - eye) < tissue.spheres.radius[body.number];
   if (!box_of(tissue, body).contains(eye)) return false;
-  const auto x = tissue.shells.nodes(body.number);
-  double shown = 0.0;
-  for (const Triangle& t : tissue.shells.topology(body.number).faces()) shown += solid_angle(x[t[0]] - eye, x[t[1]] - eye, x[t[2]] - eye);
-  return shown < -2.0 * std::numbers::pi;  // −4π from within, 0 from elsewhere
+  return winding_number(tissue.shells.nodes(body.number), tissue.shells.topology(body.number).faces(), eye) > 0.5;
 }
 
-/// Variables of the cells that say what the fluid of a lumen touches of spheres.
-std::span<VariableColumn> sides_of_spheres(const Model& model, std::size_t lumen, Cells& cells) {
-  cells.declare(cell_variables(model));
-  return std::span(cells.variables).subspan(cavity_variables(model, lumen), 3);
+/// The three variables of the cells that say what the fluid of a lumen touches of spheres.
+template <class Columns>
+auto sides_of_spheres(const Model& model, std::size_t lumen, Columns& variables) {
+  return std::span(variables).subspan(cavity_variables(model, lumen), 3);
 }
 
 /// Marks the faces, and notes what else is a wall.
@@ -102,7 +100,8 @@ void mark_by_sight(const Model& model, std::size_t number_of_lumen, std::span<co
   state.before_others = others.volume;
   state.other_directions = others.directions;
   state.wall_x = others.normal.x, state.wall_y = others.normal.y, state.wall_z = others.normal.z;
-  const std::span<VariableColumn> side = sides_of_spheres(model, number_of_lumen, tissue.cells);
+  tissue.cells.declare(cell_variables(model));
+  const auto side = sides_of_spheres(model, number_of_lumen, tissue.cells.variables);
   for (const BodyOfRow& body : bodies_of(tissue.cells))
     for (std::size_t axis = 0; axis < 3; ++axis)
       side[axis].values.set(body.row, body.is_shell ? 0.0 : others.balls[body.number][axis], tissue.cells.rows.capacity());
@@ -207,7 +206,7 @@ std::vector<Vec3d> pushes_on_spheres(const Model& model, const Tissue& tissue, d
   for (std::size_t k = 0; k < tissue.lumens.size(); ++k) {
     const double pressure = lumen_pressure(model.lumens[k], tissue.lumens[k], time);
     if (pressure == 0.0 || !model.lumens[k].by_sight) continue;
-    const auto side = std::span(tissue.cells.variables).subspan(cavity_variables(model, k), 3);
+    const auto side = sides_of_spheres(model, k, tissue.cells.variables);
     if (std::ranges::all_of(side, [](const VariableColumn& axis) { return axis.values.empty(); })) continue;
     out.resize(tissue.spheres.size());
     for (const BodyOfRow& body : bodies_of(tissue.cells))

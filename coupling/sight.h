@@ -58,7 +58,7 @@ class SightMap {
   /// Of the laboratory, not of length 1.
   static Vec3d direction(std::size_t ray);
   template <class Hit>
-  void cast(int side, const Window& window, std::uint32_t number, double place, const Hit& hit);
+  void cast(int side, const Window& window, std::uint32_t number, double at, const Hit& hit);
   void cast_triangle(const Vec3d& a, const Vec3d& b, const Vec3d& c, std::uint32_t number);
 
   Vec3d eye_;

@@ -192,8 +192,7 @@ void declare_mark(Section& s, draft::Mark& m) {
 void declare_lumen(Section& s, draft::Lumen& l) {
   center_key(s, l.center,
              "A point within the cavity. What can be seen from it bounds the cavity: faces of shells, spheres, obstacles. A cell that lies "
-             "over it "
-             "is left out. A cell that floats in the fluid is pushed from the side of this point alone.");
+             "over it is left out. A cell that floats in the fluid is pushed from the side of this point alone.");
   s.text({.name = "faces",
           .doc = "seen: faces of shells in sight of `center`, found anew every now and then; or the name of a mark.",
           .fallback = "seen",
@@ -230,8 +229,7 @@ void declare_lumen(Section& s, draft::Lumen& l) {
              l.plain, &Lumen::from);
   s.quantity({.name = "pressure",
               .doc = "Pressure of the fluid above that of the medium; with `solute: kept`, that at the volume at which the cavity is first "
-                     "seen. It is "
-                     "there as if holes were closed, until half of all directions are open; a run warns from a twentieth on.",
+                     "seen. It is there as if holes were closed, until half of all directions are open; a run warns from a twentieth on.",
               .quantity = Q::kPressure,
               .required = true,
               .low = -100.0,

@@ -1,5 +1,6 @@
 /// What mechanics tells of each cell: volume, area, stress and pressure, contact; and of obstacles (decisions 0023, 0054).
 #include <cmath>
+#include <limits>
 
 #include "core/ball.h"
 #include "core/parallel/threads.h"
@@ -68,21 +69,16 @@ std::vector<SymMat3<double>> stresses_of_shells(const Workspace& work, const Tis
   return out;
 }
 
-std::vector<SphereTouch> touches_of_spheres(const Workspace& work) {
-  return work.terms.contacts->layer().touches_of_spheres(contact_scene(work.scene, work.geometry.now()));
-}
-
-struct FluidOnSphere {
-  std::size_t sphere;
-  Vec3d place, force;  ///< from its centre [µm], [nN]
-};
-
-/// What the fluid of cavities does to spheres in their walls: in the middle of what it touches of each.
-std::vector<FluidOnSphere> fluid_on_spheres(const Workspace& work, const Tissue& tissue) {
-  std::vector<FluidOnSphere> out;
+/// What touches spheres beside spheres: surfaces, and the fluid of cavities in the middle of what it touches of each, which is no surface's.
+std::vector<SphereTouch> touches_of_spheres(const Workspace& work, const Tissue& tissue) {
+  std::vector<SphereTouch> out = work.terms.contacts->layer().touches_of_spheres(contact_scene(work.scene, work.geometry.now()));
   const std::vector<Vec3d> push = pushes_on_spheres(work.setting.model, tissue, tissue.clock.time);
   for (std::size_t i = 0; i < push.size(); ++i)
-    if (norm2(push[i]) > 0.0) out.push_back({i, normalized(push[i]) * -tissue.spheres.radius[i], push[i]});
+    if (norm2(push[i]) > 0.0)
+      out.push_back({.sphere = static_cast<std::uint32_t>(work.scene.first_sphere() + i),
+                     .surface = std::numeric_limits<std::uint32_t>::max(),
+                     .place = normalized(push[i]) * -tissue.spheres.radius[i],
+                     .force = push[i]});
   return out;
 }
 
@@ -95,7 +91,6 @@ std::vector<double> pressures_from(const Workspace& work, const Tissue& tissue, 
   for (std::size_t i = 0; i < virial.size(); ++i) virial[i] = work.terms.spheres->virial(i);
   for (const SphereTouch& touch : touches)
     if (scene.bodies()[touch.sphere].owned) virial[touch.sphere - scene.first_sphere()] -= dot(touch.place, touch.force);
-  for (const auto& [sphere, place, force] : fluid_on_spheres(work, tissue)) virial[sphere] += dot(place, force);
   out.resize(of_shells.size() + virial.size());
   parallel_for(work.setting.threads, virial.size(), [&](std::size_t i) {
     out[of_shells.size() + i] = cbm::sphere_pressure(virial[i], ball_volume(tissue.spheres.radius[i]),
@@ -115,7 +110,6 @@ void add_values_of_spheres(const Workspace& work, const Tissue& tissue, std::spa
     sum.with_cells += touch.area;
     sum.virial += virial_of(touch.place, touch.force * -1.0);
   }
-  for (const auto& [sphere, place, force] : fluid_on_spheres(work, tissue)) pressing[sphere].virial += virial_of(place, force);
   for (std::size_t i = 0; i < scene.owned_spheres(); ++i) {
     const CellType& type = work.setting.model.types[tissue.spheres.type[i]];
     const double r = tissue.spheres.radius[i], modulus = type.shell.bulk_modulus, surface = ball_surface(r);
@@ -152,14 +146,14 @@ void Mechanics::look(const Tissue& tissue) {
 
 std::vector<double> Mechanics::pressures(const Tissue& tissue) {
   look(tissue);
-  const std::vector<SphereTouch> touches = touches_of_spheres(*work_);
+  const std::vector<SphereTouch> touches = touches_of_spheres(*work_, tissue);
   return pressures_from(*work_, tissue, stresses_of_shells(*work_, tissue, touches), touches);
 }
 
 BodyValues Mechanics::values(const Tissue& tissue) {
   look(tissue);
   const Workspace& work = *work_;
-  const std::vector<SphereTouch> touches = touches_of_spheres(work);
+  const std::vector<SphereTouch> touches = touches_of_spheres(work, tissue);
   BodyValues values;
   values.stress = stresses_of_shells(work, tissue, touches);
   values.pressure = values.inner_pressure = pressures_from(work, tissue, values.stress, touches);

@@ -130,6 +130,21 @@ TEST(Lumen, PressesOnSpheresAmongItsWallsAsOnShells) {
   EXPECT_LT(norm(sum), 1e-12 * 12.0 * norm(alone[0]));
 }
 
+/// P ∫ n dA at a distance R from its centre, as any force that pushes it inwards: −tr σ/3 = R P |∫ n dA|/(3V).
+TEST(Lumen, PressesASphereTogether) {
+  const Model model = model_of_cavity();
+  ShapeLibrary shapes;
+  Tissue tissue = test::make_tissue(model, shapes, {{kDistance, 0, 0}}, {BodyKind::kSphere}, 162, kRadius);
+  look_into_lumens(model, {}, tissue, Comm());
+  tissue.lumens[0].covered = 1.0;  // as if the wall were closed
+  const double push = norm(pushes_on_spheres(model, tissue, 0.0)[0]);
+  EXPECT_GT(push, 0.02 * 100.0);
+  Mechanics mechanics(model, {}, shapes, Comm(), 1);
+  const double volume = 4.0 / 3.0 * std::numbers::pi * std::pow(kRadius, 3), expected = kRadius * push / (3.0 * volume);
+  EXPECT_NEAR(mechanics.pressures(tissue)[0], expected, 0.01 * expected);
+  EXPECT_NEAR(mechanics.values(tissue).stress[0].xx, -3.0 * expected, 0.1 * expected);
+}
+
 /// The walls are what they are without it.
 TEST(Lumen, LeavesOutACellThatLiesOverItsCentre) {
   Model model = model_of_cavity();
