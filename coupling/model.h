@@ -146,8 +146,9 @@ struct StepControl {
   double max_step = 60.0;         ///< [s]
   double max_displacement = 0.3;  ///< allowed displacement of a step in units of the contact range c (of shell nodes and spheres)
   int max_newton = 3;
-  double newton_stop = 0.2;       ///< stop when the nonlinear residual is below this part of the force
-  double obstacle_stop = 0.01;    ///< nor before that of cells on moving obstacles is below this part of the forces of their contacts
+  double newton_stop = 0.2;  ///< stop when the nonlinear residual is below this part of the force
+  double obstacle_stop =
+      0.01;  ///< nor before that of cells where obstacles and loads that hold move is below this part of the forces there
   double first_tolerance = 1e-2;  ///< of the linear solve
   double later_tolerance = 0.1;   ///< of the later solves of a step
   double start_cap = 0.0;         ///< δ of the capped start: traction not above k_r δ until the overlap is below 0.1 µm; 0: no cap [µm]

@@ -89,14 +89,15 @@ void declare_numerics(Section& s, draft::Numerics& n) {
              n.step, &StepControl::newton_stop);
   s.quantity(
       {.name = "obstacle_stop",
-       .doc = "While obstacles move, Newton goes on until the residual of the cells that they touch is below this part of the forces of "
-              "their contacts, for up to four times `newton` iterations: forces on obstacles are read. 1: it does not.",
+       .doc = "While obstacles, grips or traps move, Newton goes on until the residual of the cells that they touch or hold is below this "
+              "part of "
+              "the forces there, for up to twelve iterations, or `newton` where that is more: these forces are read. 1: it does not.",
        .fallback = "0.01",
        .low = 0.0,
        .high = 1.0,
        .low_open = true,
        .example = "0.01",
-       .source = "measured: plates that go and come back (decision 0082)"},
+       .source = "measured: plates and traps that go and come back (decisions 0082, 0094)"},
       n.step, &StepControl::obstacle_stop);
   s.quantity(
       {.name = "tolerance",

@@ -33,6 +33,8 @@ struct Anchor {
   double stiffness = 0.0;  ///< k [nN/µm]
   Vec3d target{};          ///< X [µm]
   int shell = -1;          ///< number on the rank of the shell that is held as a whole; −1: a point is
+
+  bool operator==(const Anchor&) const = default;
 };
 
 /// What pulls or pushes cells from outside: what there is to say about it, its section of a load in the study, and its force. Exactly one of push,

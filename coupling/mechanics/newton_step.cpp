@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "coupling/mechanics/common_way.h"
-#include "coupling/mechanics/left_at_obstacles.h"
+#include "coupling/mechanics/left_where_held.h"
 #include "coupling/mechanics/step.h"
 
 namespace morula {
@@ -24,9 +24,10 @@ constexpr int kMostHolds = 3;              // times that nodes may be held in on
 constexpr double kHeldShare = 0.1;         // of the force that drives a node back, over the largest such force, from which on it is held
 constexpr double kHold = 100.0;            // stiffness that holds a node, over the secant one
 constexpr double kLastResortStep = 0.2;    // in units of the contact range
-constexpr double kLeastScale = 0.02;       // of forces before obstacles moved, over the residual after it: cells may have been at rest
+constexpr double kLeastScale =
+    0.02;  // of forces before obstacles and springs moved, over the residual after it: cells may have been at rest
 constexpr int kMaxLinearIterations = 400;
-constexpr int kTimesAtObstacles = 4;   // as many iterations may be done while obstacles move
+constexpr int kMostWhereHeld = 12;     // iterations that may be done while obstacles or springs move, where `newton` allows for fewer
 constexpr double kMuchTooFar = 4.0;    // first way of Newton's method, over what is allowed, from which on a step is not worth a search
 constexpr double kShortestCut = 1e-3;  // a step that is no longer is not refused for the length of its way [s]
 
@@ -133,7 +134,7 @@ class NewtonStep {
   /// Another iteration would move points by about the part of this one's way that the residual has left: where this is little, it is not
   /// worth a matrix and a solve, and the next step sees the residual (time_stepping.md §6.1, §10.5).
   [[nodiscard]] bool is_done(const Iteration& last) const;
-  /// Whether the cells that moved obstacles touch are so near to their balance that the forces on these obstacles can be told. Collective.
+  /// Whether the cells that moved obstacles touch, or springs that move hold, are so near to their balance that these forces can be told. Collective.
   [[nodiscard]] bool can_tell_forces() const;
 
   Workspace& work_;
@@ -145,7 +146,7 @@ class NewtonStep {
   std::vector<Vec3d> copy_;      ///< of the positions of the start, where the tissue has not all of them
   std::optional<Residual> now_;  ///< at the accepted positions; none while a search is under way, or after it failed
   double phi_ = 0.0;             ///< Φ at the accepted positions
-  double force_norm_ = 0.0;      ///< of the residual at the start; where obstacles have moved, of the forces before that
+  double force_norm_ = 0.0;      ///< of the residual at the start; where obstacles or springs have moved, of the forces before that
   double scale_ = 1.0;           ///< that over the residual at the start
   StepReport report_;
   CellId through_;        ///< of this rank, that a trial would have moved through another; of none not valid
@@ -346,7 +347,7 @@ bool NewtonStep::is_done(const Iteration& last) const {
 }
 
 bool NewtonStep::can_tell_forces() const {
-  return !task_.forces_before || left_at_moved_obstacles(work_, now_->force) <= control_.obstacle_stop;
+  return !task_.forces_before || left_where_held(work_, tissue_, now_->force) <= control_.obstacle_stop;
 }
 
 Result<StepReport, StepFault> NewtonStep::run(Evaluation at_start) {
@@ -362,7 +363,7 @@ Result<StepReport, StepFault> NewtonStep::run(Evaluation at_start) {
   if (!std::isfinite(phi_) || !std::isfinite(force_norm_)) return undo({"forces are not numbers", {}, false});
   bool cut = false;    // the last iteration's way was cut to the contact range, gone to its end, and did not suffice
   bool ended = false;  // what is left of the residual is little
-  const int most = control_.max_newton * (task_.forces_before ? kTimesAtObstacles : 1);
+  const int most = task_.forces_before ? std::max(kMostWhereHeld, control_.max_newton) : control_.max_newton;
   for (int number = 0; number < most; ++number) {
     const auto done = iterate(number);
     if (!done) return undo(done.error());

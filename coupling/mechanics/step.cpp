@@ -60,6 +60,21 @@ void find_held_points(Workspace& work, std::span<const ElementGroup> groups, con
   }
 }
 
+/// Whether loads that hold cells are elsewhere at the end of a step than at its start. Collective.
+bool springs_move(const Workspace& work, std::span<const Anchor> at_end, std::span<const Anchor> at_start) {
+  const auto holds = [](const CellLoad& load) { return load.what->holds(); };
+  return std::ranges::any_of(work.setting.model.loads, holds) && work.setting.comm.any(!std::ranges::equal(at_end, at_start));
+}
+
+/// Norm of these forces of terms together with all that acts from outside while springs are those [nN]. Collective.
+double norm_of_forces(const Workspace& work, const Tissue& tissue, const StepTask& task, std::span<const Anchor> springs,
+                      std::vector<Vec3d> force) {
+  const OwnedPoints points = work.points();
+  points.for_all([&](std::uint32_t i) { force[i] += work.external_on(task, i); });
+  Grips::for_pulls(work.world(tissue), springs, [&](std::uint32_t, std::uint32_t i, const Vec3d& pull) { force[i] += pull; });
+  return std::sqrt(points.dot(force, force));
+}
+
 }  // namespace
 
 AssembledMatrix::AssembledMatrix(Workspace& work, const Tissue& tissue, double dt) : work_(work) {
@@ -118,15 +133,13 @@ Evaluation begin_step(Workspace& work, const Tissue& tissue, StepTask& task, Eva
   std::vector<Vec3d> offsets = tissue.obstacle_offset;
   for (std::size_t i = 0; i < work.setting.model.obstacles.size(); ++i)
     offsets[i] += work.setting.model.obstacles[i].way(tissue.clock.time, tissue.clock.time + task.dt);
-  if (!std::ranges::equal(offsets, work.terms.contacts->layer().offsets())) {
-    const OwnedPoints points = work.points();
-    std::vector<Vec3d>& force = now.force;
-    points.for_all([&](std::uint32_t i) { force[i] += work.external_on(task, i); });
-    task.forces_before = std::sqrt(points.dot(force, force));
-    work.terms.contacts->set_offsets(offsets);
-    now = evaluate(work, tissue, std::move(force));
-  }
-  return now;
+  const bool obstacles_move = !std::ranges::equal(offsets, work.terms.contacts->layer().offsets());
+  const std::vector<Anchor> before = grip_anchors(work.setting.model, tissue, tissue.clock.time);
+  if (!obstacles_move && !springs_move(work, task.anchors, before)) return now;
+  task.forces_before = norm_of_forces(work, tissue, task, before, now.force);
+  if (!obstacles_move) return now;
+  work.terms.contacts->set_offsets(offsets);
+  return evaluate(work, tissue, std::move(now.force));
 }
 
 std::vector<Vec3d> random_forces(Workspace& work, const Tissue& tissue, double dt) {

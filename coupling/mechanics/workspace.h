@@ -30,8 +30,8 @@ struct StepTask {
   std::span<const Anchor> anchors;     ///< springs to places of the laboratory
   const Settling* settling = nullptr;  ///< null: the clock runs
   std::vector<Vec3d> by_point{};       ///< `external` and random forces; empty: there are none of these [nN]
-  /// Norm of all forces before obstacles went to where they are at the step's end, where they do [nN]. What they do to cells that have not moved yet, stretched
-  /// over a step, may be a hundred times the forces that are left when all have: no measure for what may be left of the residual.
+  /// Norm of all forces before obstacles and springs went to where they are at the step's end, where they do [nN]. What they do to cells that have not moved
+  /// yet, stretched over a step, may be a hundred times the forces that are left when all have: no measure for what may be left of the residual.
   std::optional<double> forces_before{};
 };
 

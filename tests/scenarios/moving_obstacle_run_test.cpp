@@ -165,5 +165,54 @@ output: {report: false}
   EXPECT_NEAR(last_of(text, "grip_x_trap"), 0.0, 0.002);
 }
 
+/// What two traps tell that press cells together and draw them apart; in a medium that takes 1e-3 nN.
+struct Pressed {
+  std::vector<double> low, high;  ///< along the line of centres, every 25 s [nN]
+};
+Pressed pressed_by_traps(const std::string& step) {
+  const test::Folder folder;
+  const auto read = test::read(R"(schema: 1
+study: traps
+time: {end: 600 s, step: )" + step +
+                               R"(, output: 25 s}
+domain: {size: [60 um, 40 um, 40 um]}
+cell_types:
+  a:
+    radius: 6 um
+    adhesion: {a: 0 J/m^2, b: 0 J/m^2}
+    friction: {medium: 2e5 N s/m^3}
+    dcm: {nodes: 42, cortex: {elastic: none, tension: 0.3 mN/m}}
+  b: {like: a}
+initial:
+  - {type: a, at: [[-5.5 um, 0 um, 0 um]], as: shell}
+  - {type: b, at: [[7 um, 0 um, 0 um]], as: shell}
+loads:
+  low: {type: a, trap: {stiffness: 20 mN/m, center: [-5.5 um, 0 um, 0 um]}}
+  high:
+    type: b
+    trap:
+      stiffness: 20 mN/m
+      center: [7 um, 0 um, 0 um]
+      direction: [1, 0, 0]
+      way: [{time: 0 s, distance: 0 um}, {time: 225 s, distance: -3.25 um}, {time: 600 s, distance: 1.5 um}]
+output: {report: false}
+)");
+  EXPECT_TRUE(read.ok()) << read.error().text();
+  if (!read.ok() || !test::run_into(folder.path() / "run", *read)) return {};
+  const auto series = read_series(folder.path() / "run/series.csv");
+  if (!series.ok()) return {};
+  return {series->find("grip_x_low")->values, series->find("grip_x_high")->values};
+}
+
+TEST(Traps, ThatMoveTellForcesInBalance) {
+  const Pressed usual = pressed_by_traps("auto"), small = pressed_by_traps("1 s");
+  ASSERT_EQ(usual.low.size(), 25u);
+  ASSERT_EQ(small.low.size(), 25u);
+  for (std::size_t i = 0; i < 25; ++i) {
+    EXPECT_NEAR(usual.low[i] + usual.high[i], 0.0, 0.02) << 25 * i << " s";  // was up to 0.12 off
+    EXPECT_NEAR(usual.low[i], small.low[i], 0.05 * std::abs(small.low[i]) + 0.03) << 25 * i << " s";
+  }
+}
+
 }  // namespace
 }  // namespace morula::scenarios
