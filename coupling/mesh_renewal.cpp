@@ -93,12 +93,12 @@ dcm::ShellRecord on_new_mesh(const dcm::ShellRecord& old, const AskedSurface& su
 /// The shell with its new mesh of either kind.
 dcm::ShellRecord renewed_shell(const dcm::ShellRecord& old, const Renewal& renewal, const CellType& type, ShapeLibrary& shapes) {
   const AskedSurface surface(SurfaceView{old.position, old.shape->topology.get()});
-  if (renewal.mesh && !renewal.has_own) return on_new_mesh(old, surface, old.shape, renewal.mesh->position, strains_faces(type.shell));
   const bool is_elastic = dcm::has_elastic_surface(type.shell);
-  auto shape = renewal.mesh ? shapes.icosphere(type.shell_nodes).value()
-                            : shapes.adopt(carried_shape(old, surface, renewal.own->topology, renewal.own->position, is_elastic));
+  auto shape = renewal.own        ? shapes.adopt(carried_shape(old, surface, renewal.own->topology, renewal.own->position, is_elastic))
+               : !renewal.has_own ? old.shape
+                                  : shapes.icosphere(type.shell_nodes).value();
   dcm::ShellRecord out =
-      on_new_mesh(old, surface, shape, renewal.mesh ? renewal.mesh->position : renewal.own->position, strains_faces(type.shell));
+      on_new_mesh(old, surface, shape, renewal.mesh ? renewal.mesh->position : renewal.own->position, dcm::strains_faces(type.shell));
   if (!is_elastic) out.rest_length = free_rest_lengths(*out.shape, out.rest_volume);  // a fluid forgets
   return out;
 }

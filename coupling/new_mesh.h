@@ -27,9 +27,6 @@ struct NewMesh {
 /// triangle of such lengths, or a much flatter one than it is itself, has its edges shortened alike; springs do without.
 std::vector<double> carried_rest_lengths(const NewMesh& mesh, bool of_triangles);
 
-/// Whether a law of the shell asks for the strain of faces.
-inline bool strains_faces(const dcm::ShellParameters& law) { return !law.sheets.empty() || law.local_area_modulus > 0.0; }
-
 /// The stress-free shape of a shell on a mesh with connectivity of its own, of nodes at `position` that lie on the old surface.
 ///
 /// Of an elastic surface, edges have the lengths that the metric of the old shape gives them, and faces the areas of these lengths. A fluid one forgets: they are

@@ -42,6 +42,7 @@ struct BlockState {
   ForceWorkspace& ws;
   Real energy{0.0}, volume{0.0}, max_inverse_quality{0.0}, max_angle{0.0};
   Real stretch_excess{0.0};  ///< > 0 where a law's range of stretch is left
+  Real strained{1.0};        ///< 0 of a shell without a law of the strain of faces: strained_lanes()
 
   Vec3<Real> x(std::size_t node) const noexcept { return load_vec3<double, W>(ws.position.data(), node); }
   Vec3<Real> face_vector(std::size_t face) const noexcept { return load_vec3<double, W>(ws.face_vector.data(), face); }

@@ -194,6 +194,7 @@ void block_mechanics(const LaneBlock& block, const Shells& shells, const ShellMa
   std::fill_n(ws.force.data(), std::size_t{topology.node_count()} * 3 * W, 0.0);
 
   BlockState<W> state{block, topology, ws};
+  state.strained = strained_lanes<double, W>(block, shells, materials);
   const auto of_type = [&](double ShellParameters::*member) { return parameter<double, W>(block, shells, materials, member); };
   measure_faces(state);
   Real pressure(0.0), volume_energy(0.0), cytosol(0.0);

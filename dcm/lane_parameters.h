@@ -30,6 +30,13 @@ bool any_has(const LaneBlock& block, const Shells& shells, const ShellMaterials&
   return false;
 }
 
+/// 1 of shells with a law of the strain of faces, 0 of those without, whose rest lengths may form no triangle: a loop that takes all lanes alike strains
+/// these by nothing (rest_squares()), or what is not a number would come through a strength of zero.
+template <class T, int W>
+Lane<T, W> strained_lanes(const LaneBlock& block, const Shells& shells, const ShellMaterials& materials) {
+  return by_lane<T, W>(block, [&](std::uint32_t shell) { return strains_faces(materials.of(shells, shell)) ? 1.0 : 0.0; });
+}
+
 /// An array of the reference shapes as lanes; read once when all shells of the block share one shape.
 template <class T, int W>
 class ShapeArray {

@@ -27,7 +27,11 @@ std::array<Lane<double, W>, 2> global_area(const BlockState<W>& state, const She
   Real area(0.0), reference(0.0);
   for (std::size_t f = 0; f < state.topology.face_count(); ++f) {
     area += Real(0.5) * norm(state.face_vector(f));
-    const auto rest = rest_squares<Real>(state.topology.face_edges()[f], [&](std::uint32_t edge) { return state.rest_length(edge); });
+    const Triangle& t = state.topology.faces()[f];
+    const auto x0 = state.x(t[0]), x1 = state.x(t[1]), x2 = state.x(t[2]);
+    const auto rest_length = [&](std::uint32_t edge) { return state.rest_length(edge); };
+    const auto rest =
+        rest_squares<Real>(state.topology.face_edges()[f], rest_length, state.strained, {norm2(x2 - x1), norm2(x0 - x2), norm2(x1 - x0)});
     reference += MembraneStrain<Real>::of(rest, rest).reference_area;
   }
   return {law.energy(area, reference), law.tension(area, reference)};

@@ -56,6 +56,7 @@ struct Assembly {
   ShellOperator::Block& out;
   Real dt;
   std::span<const HeldVolume> held;
+  Real strained = strained_lanes<float, W>(block, shells, materials);
 
   Vec3<Real> x(std::size_t node) const noexcept { return load_vec3<float, W>(ws.local.data(), node); }
   Real of_type(double ShellParameters::*member) const noexcept { return parameter<float, W>(block, shells, materials, member); }

@@ -49,8 +49,9 @@ void add_sheet_forces(BlockState<W>& state, const Sheets& sheets, const Lane<dou
     const Triangle& t = faces[f];
     const auto x0 = state.x(t[0]), x1 = state.x(t[1]), x2 = state.x(t[2]);
     const auto e0 = x2 - x1, e1 = x0 - x2, e2 = x1 - x0;
-    const auto rest = rest_squares<Real>(face_edges[f], [&](std::uint32_t edge) { return state.rest_length(edge); });
-    const auto strain = MembraneStrain<Real>::of(rest, {norm2(e0), norm2(e1), norm2(e2)});
+    const std::array<Real, 3> now{norm2(e0), norm2(e1), norm2(e2)};
+    const auto rest_length = [&](std::uint32_t edge) { return state.rest_length(edge); };
+    const auto strain = MembraneStrain<Real>::of(rest_squares<Real>(face_edges[f], rest_length, state.strained, now), now);
     auto stress = sheets.stress(strain.trace, strain.det);
     if (area != nullptr) stress += local.stress(strain.det);
     state.energy += strain.reference_area * stress.energy;

@@ -270,4 +270,9 @@ Number sheet_strengths(const ShellParameters& p) {
 /// Whether the surface remembers how it is stretched; else it is a fluid.
 inline bool has_elastic_surface(const ShellParameters& p) { return p.spring_stiffness > 0.0 || !p.sheets.empty(); }
 
+/// Whether a law asks for the strain of faces, whose rest lengths then are those of triangles; of others they need not be.
+inline bool strains_faces(const ShellParameters& p) {
+  return !p.sheets.empty() || p.local_area_modulus > 0.0 || p.global_area_modulus > 0.0;
+}
+
 }  // namespace morula::dcm

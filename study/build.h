@@ -77,6 +77,10 @@ void build_pairs(BuildContext& context);
 void build_contact_pairs(BuildContext& context);
 /// Adhesion by marks, after build_contact_pairs() and build_regions(): E580, E581.
 void build_adhesion_regions(BuildContext& context);
+/// `contact.repulsion` as a number, that of pairs which do not ask for more where it is `auto` [kPa/µm].
+double usual_repulsion(const draft::Study& study);
+/// Repulsion of pairs that adhere strongly, where the study leaves it open; after all that is said of adhesion.
+void build_repulsion(BuildContext& context);
 void build_fields(BuildContext& context);
 void build_initial(BuildContext& context);
 void build_coupling(BuildContext& context);

@@ -148,4 +148,30 @@ void build_contact_pairs(BuildContext& c) {
   }
 }
 
+double usual_repulsion(const draft::Study& study) {
+  constexpr double kUsual = 100.0;  // [kPa/µm]
+  const double given = study.contact.repulsion.value;
+  return given > 0.0 ? given : kUsual;
+}
+
+void build_repulsion(BuildContext& c) {
+  constexpr double kOverAdhesion =
+      60.0;  // k_r c²/W, below which what adhesion draws into a wedge between two cells comes deep (decision 0095)
+  if (c.draft.contact.repulsion.value > 0.0) return;
+  Model& model = c.study.model;
+  const std::size_t count = model.material_count();
+  for (std::size_t a = 0; a < count; ++a)
+    for (std::size_t b = 0; b < count; ++b) {
+      ContactPair& pair = model.pairs[a * count + b];
+      if (pair.repulsion > 0.0 || !pair.law->has_repulsion) continue;
+      double adhesion = pair.adhesion;
+      for (const AdhesionRule& rule : pair.regions) adhesion = std::max(adhesion, rule.adhesion);
+      if (a == b && a < model.types.size())
+        if (const CellType& type = model.types[a]; type.cycles && type.shells_divide && type.new_surface > 0.0 && may_be_shell(c, a))
+          adhesion = std::max(adhesion, 2.0 * type.shell.tension);
+      const double range = pair.range > 0.0 ? pair.range : model.contact.range, least = kOverAdhesion * adhesion / (range * range);
+      if (least > model.contact.repulsion) pair.repulsion = least;
+    }
+}
+
 }  // namespace morula::scenarios

@@ -21,7 +21,7 @@ double gentle_cap(const BuildContext& c) {
     const dcm::ShellParameters& p = c.study.model.types[i].shell;
     const double held = p.tension + p.shape_stiffness + p.spring_stiffness + dcm::sheet_strengths(p);
     const double edge = mean_edge(t.nodes.value) * t.radius.mean.value;
-    if (edge > 0.0 && held > 0.0) cap = std::min(cap, kGentle * held / (edge * c.draft.contact.repulsion.value));
+    if (edge > 0.0 && held > 0.0) cap = std::min(cap, kGentle * held / (edge * usual_repulsion(c.draft)));
   }
   return cap;
 }
@@ -102,7 +102,7 @@ void build_time_and_numerics(BuildContext& c) {
     step.initial_step = step.max_step;
   }
   ContactNumerics& contact = c.study.model.contact;
-  contact = {c.draft.contact.range.value, c.draft.contact.repulsion.value, static_cast<int>(c.draft.contact.points.value),
+  contact = {c.draft.contact.range.value, usual_repulsion(c.draft), static_cast<int>(c.draft.contact.points.value),
              n.skin.value > 0.0 ? n.skin.value : skin_of(c), c.draft.contact.friction.value == "objective"};
   const draft::Limits& limits = c.draft.limits;
   limits.plain.write_to(c.study.model.limits);

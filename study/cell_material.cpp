@@ -41,20 +41,21 @@ bool names_both(const Node& pair, const std::string& type) {
   return between != nullptr && between->items.size() == 2 && between->items[0].text == type && between->items[1].text == type;
 }
 
-/// The section `contact`, and what it says of pairs of the type.
-void take_contact(const Node& document, const std::string& type, CellMaterial& out) {
+/// The section `contact`, and what it says of pairs of the type. `repulsion`: what `auto` stands for where pairs say nothing else [kPa/µm].
+void take_contact(const Node& document, const std::string& type, double repulsion, CellMaterial& out) {
   const Node* contact = document.find("contact");
   out.contact = "{}";
   if (contact == nullptr) return;
+  if (const Node* pairs = contact->find("pairs"))
+    for (const Node& pair : pairs->items)
+      if (names_both(pair, type))
+        for (const Node::Entry& entry : pair.entries)
+          if (entry.key != "between") out.pair += ", " + entry.key + ": " + flow(entry.value);
   Node all = *contact;
   std::erase_if(all.entries, [](const Node::Entry& e) { return e.key == "pairs"; });
+  for (Node::Entry& entry : all.entries)
+    if (entry.key == "repulsion" && entry.value.text == "auto") entry.value.text = shortest_text(repulsion) + " kPa/um";
   out.contact = flow(all);
-  const Node* pairs = contact->find("pairs");
-  if (pairs == nullptr) return;
-  for (const Node& pair : pairs->items)
-    if (names_both(pair, type))
-      for (const Node::Entry& entry : pair.entries)
-        if (entry.key != "between") out.pair += ", " + entry.key + ": " + flow(entry.value);
 }
 
 /// Whether two values are one quantity in different words, as 1 kPa and 1000 Pa are.
@@ -129,7 +130,7 @@ Result<CellMaterial> material_of(const Study& study, const std::string& name) {
   out.adhesion = pair.adhesion;
   out.friction = {found->medium_friction, pair.normal_friction, pair.tangential_friction};
   out.range = pair.range > 0.0 ? pair.range : model.contact.range;
-  take_contact(document, name, out);
+  take_contact(document, name, pair.repulsion > 0.0 ? pair.repulsion : model.contact.repulsion, out);
   for (const char* section : kOfShells) {
     const Node* found_part = type->find(section);
     if (found_part == nullptr) continue;

@@ -307,6 +307,13 @@ double nucleus_limit(const Laws& laws, const draft::CellType& t, double repulsio
   return std::min({limit, in_plane_limit(laws, n.shell, per_area * node_area), surface_limit(laws, n.shell, per_area, node_area, radius)});
 }
 
+/// Stiffest repulsion of surfaces [kPa/µm].
+double stiffest_repulsion(const Model& model) {
+  double out = model.contact.repulsion;
+  for (const ContactPair& pair : model.pairs) out = std::max(out, pair.repulsion);
+  return out;
+}
+
 }  // namespace
 
 double explicit_step_limit(const BuildContext& c) {
@@ -323,9 +330,8 @@ double explicit_step_limit(const BuildContext& c) {
       const double node_area = ball_surface(radius) / std::max(1.0, static_cast<double>(t.nodes.value));
       limit = std::min(limit, 2.0 * friction * radius / (3.0 * t.bulk_modulus.value));
       limit = std::min({limit, in_plane_limit(laws, t, friction * node_area), surface_limit(laws, t, friction, node_area, radius)});
-      limit = std::min(limit, nucleus_limit(laws, t, study.contact.repulsion.value));
-      if (study.contact.repulsion.value > 0.0)
-        limit = std::min(limit, 2.0 * std::max(friction, t.friction_cell_cell.value) / study.contact.repulsion.value);
+      limit = std::min(limit, nucleus_limit(laws, t, c.study.model.contact.repulsion));
+      limit = std::min(limit, 2.0 * std::max(friction, t.friction_cell_cell.value) / stiffest_repulsion(c.study.model));
     }
     // A sphere with 12 neighbours at contact radius R/2: stiffness 2 E* a each, E* = E/(2 (1 − ν²)).
     double contact = 12.0 * t.sphere_young.value / (1.0 - t.sphere_poisson.value * t.sphere_poisson.value) * 0.5 * radius;

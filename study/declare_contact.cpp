@@ -89,15 +89,18 @@ void declare_contact(Section& s, draft::Contact& contact) {
        .example = "0.5 um",
        .source = "measured: adhesion energy recovered within 3 % with c >= L/4 and 3 points a face (162 nodes, R = 6 um: L = 1.8 um)"},
       contact.range);
-  s.quantity({.name = "repulsion",
-              .doc = "Stiffness k_r of the repulsion of overlapping surfaces, pressure per depth.",
-              .quantity = Q::kPressurePerLength,
-              .fallback = "100 kPa/um",
-              .low = 0.1,
-              .high = 1e5,
-              .example = "100 kPa/um",
-              .source = "measured: overlap below 0.15 um at 1 kPa and W = 0.5 mJ/m^2"},
-             contact.repulsion);
+  s.quantity(
+      {.name = "repulsion",
+       .doc = "Stiffness k_r of the repulsion of overlapping surfaces, pressure per depth. `auto`: 100 kPa/um, or 60 W/c^2 of a pair "
+              "with so strong an adhesion W, where surfaces of a cell that divides adhere with twice their tension while they are new.",
+       .quantity = Q::kPressurePerLength,
+       .fallback = "auto",
+       .low = 0.1,
+       .high = 1e5,
+       .specials = {{"auto", 0.0}},
+       .example = "100 kPa/um",
+       .source = "measured: overlap below 0.15 um at 1 kPa and W = 0.5 mJ/m^2; below 0.12 um with more adhesion (decision 0095)"},
+      contact.repulsion);
   s.word({.name = "friction",
           .doc = "Friction of surfaces in contact. simple: by the relative velocity of the two points of a contact, which is not zero "
                  "where a pair of "

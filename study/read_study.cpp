@@ -35,6 +35,7 @@ void build(BuildContext& context) {
   build_activity(context);
   build_regions(context);
   build_adhesion_regions(context);
+  build_repulsion(context);
   build_loads(context);
   build_tolerance(context);
   number_trait_variables(context.study.model);

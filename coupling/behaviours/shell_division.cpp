@@ -17,7 +17,7 @@ dcm::ShellRecord make_shell(const NewMesh& mesh, const CellType& type, std::shar
   out.position.assign(mesh.position.begin(), mesh.position.end());
   out.rest_volume = target;
   const bool eases = type.new_surface > 0.0 || type.shell.turnover_rate > 0.0;
-  out.rest_length = eases && dcm::has_elastic_surface(type.shell) ? carried_rest_lengths(mesh, strains_faces(type.shell))
+  out.rest_length = eases && dcm::has_elastic_surface(type.shell) ? carried_rest_lengths(mesh, dcm::strains_faces(type.shell))
                                                                   : free_rest_lengths(*shape, target);
   out.shape = std::move(shape);
   return out;

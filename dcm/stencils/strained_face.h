@@ -12,6 +12,14 @@ std::array<Real, 3> rest_squares(const std::array<std::uint32_t, 3>& edges, cons
   const Real a = rest_length(edges[0]), b = rest_length(edges[1]), c = rest_length(edges[2]);
   return {a * a, b * b, c * c};
 }
+/// The same in a block; of a shell that is not strained (strained_lanes()) the present ones.
+template <class Real, class RestLength>
+std::array<Real, 3> rest_squares(const std::array<std::uint32_t, 3>& edges, const RestLength& rest_length, const Real& strained,
+                                 const std::array<Real, 3>& now) noexcept {
+  const auto rest = rest_squares<Real>(edges, rest_length);
+  const auto of = [&](int c) { return select(strained > Real(0), rest[c], now[c]); };
+  return {of(0), of(1), of(2)};
+}
 
 /// A face of the block that is assembled: its edges and its strain.
 template <int W>
@@ -25,9 +33,9 @@ struct StrainedFace {
     const auto x0 = a.x(t[0]), x1 = a.x(t[1]), x2 = a.x(t[2]);
     StrainedFace out;
     out.e = {x2 - x1, x0 - x2, x1 - x0};
-    const auto rest = rest_squares<Real>(a.topology.face_edges()[f],
-                                         [&](std::uint32_t edge) { return load_scalar<float, W>(a.ws.rest_length.data(), edge); });
-    out.strain = MembraneStrain<Real>::of(rest, {norm2(out.e[0]), norm2(out.e[1]), norm2(out.e[2])});
+    const std::array<Real, 3> now{norm2(out.e[0]), norm2(out.e[1]), norm2(out.e[2])};
+    const auto rest_length = [&](std::uint32_t edge) { return load_scalar<float, W>(a.ws.rest_length.data(), edge); };
+    out.strain = MembraneStrain<Real>::of(rest_squares<Real>(a.topology.face_edges()[f], rest_length, a.strained, now), now);
     return out;
   }
 };

@@ -54,6 +54,24 @@ TEST(ContactPairs, AreReadAndReachTheLaw) {
   EXPECT_EQ(again->model.pair(0, 2).tangential_friction, 0.0);
 }
 
+TEST(ContactPairs, ThatAdhereStronglyAreFirmer) {
+  const auto repulsion = [](const std::string& adhesion, const std::string& tension, const std::string& contact, bool divides) {
+    const auto study = test::read(
+        "schema: 1\nstudy: firm\ntime: {end: 1 h}\ndomain: {size: [100 um, 100 um, 100 um]}\ncell_types:\n"
+        "  a: {radius: 6 um, adhesion: {a: " +
+        adhesion + "}, dcm: {cortex: {tension: " + tension + "}}" + (divides ? ", cycle: {duration: 18 h}" : "") + "}\n" + contact +
+        "initial:\n  - {type: a, at: [[0 um, 0 um, 0 um]], as: shell}\n");
+    EXPECT_TRUE(study.ok()) << study.error().text();
+    return study.ok() ? piecewise_form(contact_materials(study->model)[0].law).repulsion : 0.0;
+  };
+  EXPECT_DOUBLE_EQ(repulsion("0.1 mJ/m^2", "0.1 mN/m", "", true), 100.0);
+  EXPECT_DOUBLE_EQ(repulsion("1.4 mJ/m^2", "1 mN/m", "", false), 60.0 * 1.4 / 0.25);
+  EXPECT_DOUBLE_EQ(repulsion("0.1 mJ/m^2", "1 mN/m", "", false), 100.0);
+  EXPECT_DOUBLE_EQ(repulsion("0.1 mJ/m^2", "1 mN/m", "", true), 60.0 * 2.0 / 0.25);  // the new interface of sisters
+  EXPECT_DOUBLE_EQ(repulsion("1.4 mJ/m^2", "1 mN/m", "contact: {repulsion: 120 kPa/um}\n", false), 120.0);
+  EXPECT_DOUBLE_EQ(repulsion("1.4 mJ/m^2", "1 mN/m", "contact: {pairs: [{between: [a, a], repulsion: 90 kPa/um}]}\n", false), 90.0);
+}
+
 TEST(ContactPairs, ThatContradictThemselvesAreRefusedWithTheirPlace) {
   const auto message = [](const std::string& from, const std::string& to) { return test::errors_of(test::changed(from, to, kStudy)); };
   EXPECT_NE(message(", modulus: 20 kPa", "").find("[E516]"), std::string::npos);
