@@ -155,8 +155,7 @@ double usual_repulsion(const draft::Study& study) {
 }
 
 void build_repulsion(BuildContext& c) {
-  constexpr double kOverAdhesion =
-      60.0;  // k_r c²/W, below which what adhesion draws into a wedge between two cells comes deep (decision 0095)
+  constexpr double kOverAdhesion = 60.0;  // k_r c²/W, below which a wedge that adhesion draws in comes deep (decision 0095)
   if (c.draft.contact.repulsion.value > 0.0) return;
   Model& model = c.study.model;
   const std::size_t count = model.material_count();

@@ -6,6 +6,7 @@
 #include "core/ball.h"
 #include "core/mesh/renewal/own_mesh.h"
 #include "coupling/behaviours/balanced_growth.h"
+#include "coupling/mechanics/contact_setup.h"
 #include "coupling/observables/observable.h"
 #include "dcm/derived_parameters.h"
 #include "study/build.h"
@@ -305,13 +306,6 @@ double nucleus_limit(const Laws& laws, const draft::CellType& t, double repulsio
   const double node_area = area / static_cast<double>(n.shell.nodes.value);
   limit = std::min(limit, 2.0 * per_area * radius / (3.0 * std::max(n.shell.bulk_modulus.value, 1e-300)));
   return std::min({limit, in_plane_limit(laws, n.shell, per_area * node_area), surface_limit(laws, n.shell, per_area, node_area, radius)});
-}
-
-/// Stiffest repulsion of surfaces [kPa/µm].
-double stiffest_repulsion(const Model& model) {
-  double out = model.contact.repulsion;
-  for (const ContactPair& pair : model.pairs) out = std::max(out, pair.repulsion);
-  return out;
 }
 
 }  // namespace

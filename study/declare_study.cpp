@@ -90,8 +90,8 @@ void declare_numerics(Section& s, draft::Numerics& n) {
   s.quantity(
       {.name = "obstacle_stop",
        .doc = "While obstacles, grips or traps move, Newton goes on until the residual of the cells that they touch or hold is below this "
-              "part of "
-              "the forces there, for up to twelve iterations, or `newton` where that is more: these forces are read. 1: it does not.",
+              "part of the forces there, for up to twelve iterations, or `newton` where that is more: these forces are read. 1: it does "
+              "not.",
        .fallback = "0.01",
        .low = 0.0,
        .high = 1.0,

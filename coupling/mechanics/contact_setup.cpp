@@ -199,6 +199,12 @@ cbm::PairCoefficients farthest_reaching(const Model& model, const cbm::SphereLaw
 
 }  // namespace
 
+double stiffest_repulsion(const Model& model) {
+  double out = model.contact.repulsion;
+  for (const ContactPair& pair : model.pairs) out = std::max(out, pair.repulsion);
+  return out;
+}
+
 ContactSettings contact_settings(const Model& model, int threads) {
   ContactSettings settings;
   settings.range = model.contact.range;

@@ -23,6 +23,9 @@ Result<std::vector<RigidSurface>> contact_obstacles(const Model& model);
 /// Contact of spheres with all materials: types, obstacles, and one more for walls, which neither adhere nor rub.
 cbm::ContactTable sphere_contact_table(const Model& model);
 
+/// The largest k_r of any pair of surfaces [kPa/µm].
+[[nodiscard]] double stiffest_repulsion(const Model& model);
+
 /// Ranges and skins of the contact layer for this model.
 ContactSettings contact_settings(const Model& model, int threads);
 

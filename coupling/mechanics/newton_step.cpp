@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "coupling/mechanics/common_way.h"
+#include "coupling/mechanics/contact_setup.h"
 #include "coupling/mechanics/left_where_held.h"
 #include "coupling/mechanics/step.h"
 
@@ -24,8 +25,7 @@ constexpr int kMostHolds = 3;              // times that nodes may be held in on
 constexpr double kHeldShare = 0.1;         // of the force that drives a node back, over the largest such force, from which on it is held
 constexpr double kHold = 100.0;            // stiffness that holds a node, over the secant one
 constexpr double kLastResortStep = 0.2;    // in units of the contact range
-constexpr double kLeastScale =
-    0.02;  // of forces before obstacles and springs moved, over the residual after it: cells may have been at rest
+constexpr double kLeastScale = 0.02;  // of forces before anything outside moved, over the residual after it: cells may have been at rest
 constexpr int kMaxLinearIterations = 400;
 constexpr int kMostWhereHeld = 12;     // iterations that may be done while obstacles or springs move, where `newton` allows for fewer
 constexpr double kMuchTooFar = 4.0;    // first way of Newton's method, over what is allowed, from which on a step is not worth a search
@@ -250,9 +250,7 @@ std::vector<DrivenBack> NewtonStep::driven_back(const Direction& direction, cons
 }
 
 void NewtonStep::hold(std::span<const DrivenBack> nodes, bool for_good) {
-  const Model& model = work_.setting.model;
-  double repulsion = model.contact.repulsion;
-  for (const ContactPair& pair : model.pairs) repulsion = std::max(repulsion, pair.repulsion);
+  const double repulsion = stiffest_repulsion(work_.setting.model);
   for (const DrivenBack& node : nodes) {
     double stiffness = kHold * node.back / node.length;
     if (!for_good) {
