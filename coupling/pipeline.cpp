@@ -48,7 +48,12 @@ Error refused(const Model& model, const Tissue& tissue, const StepFault& here, d
   char when[64];
   const bool early = clock.time < 3600.0;  // seconds say more than 2.981e-05 h
   std::snprintf(when, sizeof when, early ? " at %.4g s" : " at %.6g h", early ? clock.time : clock.time / 3600.0);
-  return {ErrorKind::kPhysics, fault.what + (fault.cell.valid() ? " (cell " + fault.cell.text() + ")" : "") + when,
+  const std::string message = fault.what + (fault.cell.valid() ? " (cell " + fault.cell.text() + ")" : "") + when;
+  if (!fault.smaller_step_may_help && model.step.integrator == Integrator::kImplicit)
+    return {ErrorKind::kPhysics, message,
+            "no step is short enough for this: with the laws of the program it is a fault of the program, which this study and its last "
+            "checkpoint show; else one of a law that was added"};
+  return {ErrorKind::kPhysics, message,
           "the step was cut to " + std::to_string(dt) + " s without success; " +
               (clock.capped && model.step.start_cap > 0.0 ? "`numerics: {start_cap: auto}` or a smaller cap, "
                : model.limits.overlap > kDeep             ? "`numerics: {start_cap: auto}` where cells begin deep in each other, "

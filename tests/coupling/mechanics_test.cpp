@@ -113,6 +113,22 @@ TEST(ImplicitStep, DoubletSpreadsAndNeverGainsEnergy) {
   EXPECT_GT(mechanics.values(tissue).contact_area[0], 10.0);  // fixed springs pin the line below the 20 µm² of a flowing cortex
 }
 
+TEST(ImplicitStep, NamesTheCellWhoseForcesAreNotNumbers) {
+  const Model model = test::clusters_model();
+  ShapeLibrary shapes;
+  Tissue tissue = test::make_tissue(model, shapes, {{-30, 0, 0}, {30, 0, 0}, {0, 40, 0}}, std::vector(3, BodyKind::kShell));
+  const Tissue before = tissue;
+  Mechanics mechanics(model, {}, shapes, Comm(), 1);
+  std::vector<Vec3d> external(Mechanics::external_size(tissue));
+  external[tissue.shells.first_node[1] + 7].y = std::nan("");
+  const auto step = mechanics.step(tissue, 1.0, external);
+  ASSERT_FALSE(step.ok());
+  EXPECT_EQ(step.error().what, "forces are not numbers");
+  EXPECT_FALSE(step.error().smaller_step_may_help);
+  for (const BodyOfRow& body : bodies_of(tissue.cells)) EXPECT_EQ(step.error().cell == tissue.cells.rows[body.row].id, body.number == 1);
+  EXPECT_EQ(tissue.shells.position, before.shells.position);
+}
+
 TEST(ImplicitStep, DoesNotDependOnWhenTheWorkspaceWasMade) {
   Model model = clusters_model(0.1);
   model.contact.range = 0.5;
