@@ -40,26 +40,23 @@ std::vector<CentroidGradient> Grips::Spring::gradient(std::span<const Vec3d> all
   return {{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}};
 }
 
-std::vector<Grips::Spring> Grips::springs_of(const World& world, std::span<const Anchor> anchors) {
-  std::vector<Spring> out;
+void Grips::begin_step(const World& world, StepStart&) {
+  springs_.clear();
   const std::uint32_t nodes = world.scene.owned_nodes();
   const auto first_node = world.scene.first_node().first(world.scene.owned_shells() + 1);
-  for (const Anchor& anchor : anchors) {
+  for (const Anchor& anchor : anchors_) {
     const auto shell = static_cast<std::size_t>(anchor.shell);
     const bool whole = anchor.shell >= 0;
     const auto shell_of_node = std::upper_bound(first_node.begin(), first_node.end(), anchor.node) - first_node.begin() - 1;
-    out.push_back({.stiffness = anchor.stiffness,
-                   .target = anchor.target,
-                   .body = static_cast<std::uint32_t>(anchor.node < nodes ? static_cast<std::size_t>(shell_of_node)
-                                                                          : world.scene.first_sphere() + (anchor.node - nodes)),
-                   .first = anchor.node < nodes ? anchor.node : anchor.node - nodes + world.scene.sphere_point(),
-                   .count = whole ? first_node[shell + 1] - first_node[shell] : 1,
-                   .faces = whole ? world.scene.topologies()[shell]->faces() : std::span<const Triangle>{}});
+    springs_.push_back({.stiffness = anchor.stiffness,
+                        .target = anchor.target,
+                        .body = static_cast<std::uint32_t>(anchor.node < nodes ? static_cast<std::size_t>(shell_of_node)
+                                                                               : world.scene.first_sphere() + (anchor.node - nodes)),
+                        .first = anchor.node < nodes ? anchor.node : anchor.node - nodes + world.scene.sphere_point(),
+                        .count = whole ? first_node[shell + 1] - first_node[shell] : 1,
+                        .faces = whole ? world.scene.topologies()[shell]->faces() : std::span<const Triangle>{}});
   }
-  return out;
 }
-
-void Grips::begin_step(const World& world, StepStart&) { springs_ = springs_of(world, anchors_); }
 
 void Grips::add_outside(const Way& way, double dt, std::span<Vec3d> out, OrderFreeSum& work) {
   for (const Spring& spring : springs_) {

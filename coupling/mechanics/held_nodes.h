@@ -45,15 +45,10 @@ class Grips : public Term {
  public:
   /// The springs of the next step. They are not copied.
   void set_anchors(std::span<const Anchor> anchors) { anchors_ = anchors; }
-  /// Function(body, point, force) for what these springs do to their points at the present positions [nN].
-  template <class F>
-  static void for_pulls(const World& world, std::span<const Anchor> anchors, F&& function) {
-    for (const Spring& spring : springs_of(world, anchors)) spring.for_pulls(world.position(), function);
-  }
   /// Function(body, pull) for the springs of the step, as they pull at the present positions [nN].
   template <class F>
   void for_springs(const World& world, F&& function) const {
-    for (const Spring& spring : springs_) function(spring.body, spring.pull(world.position()));
+    for (const Spring& spring : springs_) function(spring.body, (spring.target - spring.place(world.position())) * spring.stiffness);
   }
 
   void begin_step(const World& world, StepStart& start) override;
@@ -77,15 +72,7 @@ class Grips : public Term {
     [[nodiscard]] Vec3d place(std::span<const Vec3d> all) const;
     /// ∂place/∂x of its points.
     [[nodiscard]] std::vector<CentroidGradient> gradient(std::span<const Vec3d> all) const;
-    [[nodiscard]] Vec3d pull(std::span<const Vec3d> all) const { return (target - place(all)) * stiffness; }
-    template <class F>
-    void for_pulls(std::span<const Vec3d> all, F&& function) const {
-      const Vec3d force = pull(all);
-      const auto of_points = gradient(all);
-      for (std::uint32_t i = 0; i < count; ++i) function(body, first + i, transposed_product(of_points[i], force));
-    }
   };
-  [[nodiscard]] static std::vector<Spring> springs_of(const World& world, std::span<const Anchor> anchors);
   /// √(Δt k) W of one point, by row.
   using Column = std::array<Vec3f, 3>;
 

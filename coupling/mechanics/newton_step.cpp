@@ -129,9 +129,8 @@ class NewtonStep {
   Result<bool, StepFault> thaw(const Direction& newton);
   /// Why nothing can move: the cell that would have passed through another, else that which failed trials went against the most.
   [[nodiscard]] StepFault stuck() const;
-  /// The first cell of this rank with a value by point that is no number: no law may give one, and no shorter step helps.
-  template <class Vectors>
-  [[nodiscard]] StepFault not_numbers(const char* what, const Vectors& by_point) const;
+  /// The first cell of this rank with a force that is no number: no law may give one, and no shorter step helps.
+  [[nodiscard]] StepFault not_numbers() const;
   /// The cell of this rank whose forces a trial's end drives back the most.
   [[nodiscard]] MovedAgainst most_against(const Direction& direction, const Residual& trial) const;
   /// Another iteration would move points by about the part of this one's way that the residual has left: where this is little, it is not
@@ -330,13 +329,12 @@ StepFault NewtonStep::stuck() const {
   return fault;
 }
 
-template <class Vectors>
-StepFault NewtonStep::not_numbers(const char* what, const Vectors& by_point) const {
-  StepFault out{what, {}, false};
+StepFault NewtonStep::not_numbers() const {
+  StepFault out{"forces are not numbers", {}, false};
   for (const ContactBody& body : work_.scene.bodies()) {
     if (!body.active()) continue;
     for (std::uint32_t i = body.first_point; i < body.first_point + body.point_count; ++i)
-      if (!std::isfinite(norm2(by_point[i])) && (!out.cell.valid() || body.id < out.cell)) out.cell = body.id, out.badness = 1.0;
+      if (!std::isfinite(norm2(now_->force[i])) && (!out.cell.valid() || body.id < out.cell)) out.cell = body.id, out.badness = 1.0;
   }
   return out;
 }
@@ -372,7 +370,7 @@ Result<StepReport, StepFault> NewtonStep::run(Evaluation at_start) {
     scale_ = std::clamp(*task_.forces_before / force_norm_, kLeastScale, 1.0);
     force_norm_ *= scale_;
   }
-  if (!std::isfinite(phi_) || !std::isfinite(force_norm_)) return undo(not_numbers("forces are not numbers", now_->force));
+  if (!std::isfinite(phi_) || !std::isfinite(force_norm_)) return undo(not_numbers());
   bool cut = false;    // the last iteration's way was cut to the contact range, gone to its end, and did not suffice
   bool ended = false;  // what is left of the residual is little
   const int most = task_.forces_before ? std::max(kMostWhereHeld, control_.max_newton) : control_.max_newton;

@@ -71,7 +71,13 @@ double norm_of_forces(const Workspace& work, const Tissue& tissue, const StepTas
                       std::vector<Vec3d> force) {
   const OwnedPoints points = work.points();
   points.for_all([&](std::uint32_t i) { force[i] += work.external_on(task, i); });
-  Grips::for_pulls(work.world(tissue), springs, [&](std::uint32_t, std::uint32_t i, const Vec3d& pull) { force[i] += pull; });
+  Grips grips;
+  grips.set_anchors(springs);
+  const World world = work.world(tissue);
+  StepStart not_asked{};
+  grips.begin_step(world, not_asked);
+  OrderFreeSum no_work;
+  grips.add_outside({world.position(), world.position(), false}, -1.0, force, no_work);  // it adds −Δt times their forces
   return std::sqrt(points.dot(force, force));
 }
 
