@@ -93,7 +93,7 @@ void declare_held_out(Section& s, File& f) {
     declare_figures(
         h, f,
         {"pairs", "force_rms", "force_worst", "packings", "pressure_rms", "pressure_worst", "lattices", "lattice_rms", "lattice_worst"});
-    h.words(section("random"), f.others);
+    for (const char* name : {"random", "clusters"}) h.words(section(name), f.others);
   });
 }
 
@@ -120,7 +120,7 @@ void declare_with_shells(Section& s, File& f) {
     g.quantity(number("adhesion", Q::kNumber, 0.0, 10.0), f.with_shells.adhesion);
     g.words(section("stiffness_interval"), f.others);
     g.words(section("adhesion_interval"), f.others);
-    declare_figures(g, f, {"misfit", "outside", "outside_worst", "unfitted", "held_out"});
+    declare_figures(g, f, {"misfit", "outside", "outside_worst", "unfitted", "held_out", "promoted"});
   });
 }
 

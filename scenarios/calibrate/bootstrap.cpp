@@ -46,6 +46,7 @@ Interval percentiles(std::vector<double> values) {
 Bootstrap bootstrap(const Data& data, const Fit& fit, int samples, std::uint32_t seed) {
   const auto pairs = blocks_of(data.pairs);
   const auto packings = blocks_of(data.packings);
+  const auto clusters = blocks_of(data.clusters);
   Bootstrap out;
   if (pairs.size() < 2 || samples < 2) return out;
   out.possible = true, out.samples = samples;
@@ -57,6 +58,7 @@ Bootstrap bootstrap(const Data& data, const Fit& fit, int samples, std::uint32_t
     std::uint64_t draw = 0;
     draw_blocks(pairs, random, CellId(static_cast<std::uint64_t>(sample)), draw, drawn.pairs);
     draw_blocks(packings, random, CellId(static_cast<std::uint64_t>(sample)), draw, drawn.packings);
+    draw_blocks(clusters, random, CellId(static_cast<std::uint64_t>(sample)), draw, drawn.clusters);
     const Parameters found = fit_again(drawn, fit).parameters;
     out.logarithms.push_back(found.logarithms());
     young.push_back(found.young), adhesion.push_back(found.adhesion);

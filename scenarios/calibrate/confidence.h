@@ -36,7 +36,7 @@ struct Profile {
 /// Of E (0) or W (1).
 [[nodiscard]] Profile profile(const Data& data, const Fit& fit, int parameter);
 
-/// Block bootstrap: experiments drawn with replacement, those of pairs and those of packings each among themselves, and fitted from the best fit.
+/// Block bootstrap: experiments drawn with replacement, those of pairs, of packings and of clusters each among themselves, and fitted from the best fit.
 struct Bootstrap {
   int samples = 0;
   std::vector<std::vector<double>> logarithms;  ///< of each sample

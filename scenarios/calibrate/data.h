@@ -38,10 +38,25 @@ struct PackingPoint {
   }
 };
 
+/// A few equal cells in no box, at rest: nothing presses on them. Where they lie tells how much neighbours that meet each other keep a cell's contacts from growing, at packings that no
+/// box at rest has.
+struct ClusterPoint {
+  int experiment = 0;
+  PackingGeometry places{};  ///< of the cells
+  double radius = 0.0;       ///< of a free cell [µm]
+  bool held_out = false;
+
+  /// Two cells, which touch.
+  [[nodiscard]] bool is_pair() const { return places.neighbours.size() == 1 && places.neighbours[0].count == 1.0; }
+  /// δ of such a pair [µm].
+  [[nodiscard]] double overlap_of_pair() const { return (2.0 - places.neighbours[0].distance) * radius; }
+};
+
 /// What the virtual experiments have found.
 struct Data {
   std::vector<PairPoint> pairs;
   std::vector<PackingPoint> packings;
+  std::vector<ClusterPoint> clusters{};
 };
 
 }  // namespace morula::calibrate

@@ -62,6 +62,16 @@ Minimum search_pairs(const LeastSquares& loss, const FitOptions& options, Fit& o
   return *best;
 }
 
+constexpr int kKnotsOfToe = 2;  // that a curve has more where clusters tell how it begins
+
+/// φ of two cells at rest, or as deep as pairs are fitted, up to which pairs know all that acts between two; 0: there is no cluster that tells what neighbours do to each other
+/// from there on.
+double onset_by_pairs(const Data& data, const PairModel& pair, const LossWeights& weights) {
+  const auto fitted = std::ranges::find(data.clusters, false, &ClusterPoint::held_out);
+  if (fitted == data.clusters.end()) return 0.0;
+  return packing_of_pair(std::max(resting_overlap(pair, fitted->radius) / fitted->radius, weights.overlap_limit));
+}
+
 /// The curve with E and W as they are.
 void add_curve(const Data& data, const FitOptions& options, Fit& out) {
   const bool any = std::any_of(data.packings.begin(), data.packings.end(), [](const PackingPoint& point) { return !point.held_out; });
@@ -105,8 +115,11 @@ double Fit::pull_off(double reduced_radius) const { return 1.5 * std::numbers::p
 LeastSquares loss_of(const Data& data, const Fit& fit) { return loss_of(data, fit.poisson, fit.weights, fit.scales, fit.parameters.knots); }
 
 std::vector<cbm::PackingKnot> fit_curve(const Data& data, const PairModel& pair, const FitOptions& options) {
-  const std::vector<MissingPressure> missing = missing_pressure(data.packings, pair);
-  const std::vector<double> packing = options.packing.empty() ? place_knots(missing, options.knots) : options.packing;
+  if (std::ranges::all_of(data.packings, &PackingPoint::held_out)) return {};
+  const std::vector<MissingPressure> missing = missing_pressure(data, pair);
+  const double onset = onset_by_pairs(data, pair, options.weights);
+  const std::vector<double> packing =
+      options.packing.empty() ? place_knots(missing, options.knots + (onset > 0.0 ? kKnotsOfToe : 0), onset) : options.packing;
   if (missing.empty() || packing.empty()) return {};
   const std::vector<cbm::PackingKnot> knots = first_curve(missing, packing);
   std::vector<double> start = Parameters{1.0, 1.0, knots}.logarithms();

@@ -9,7 +9,9 @@ HeldOutErrors held_out_errors(const Data& data, const PairModel& pair, const cbm
   HeldOutErrors out;
   for (const PairPoint& point : data.pairs) {
     if (!point.held_out) continue;
-    const double r = point.reduced_radius(), error = std::abs(point.force - pair(point.overlap, r).force) / (pull_off * r);
+    const double r = point.reduced_radius();
+    const double law = pair(point.overlap, r).force + packing_force_of_pair(curve, point.radius_a, point.radius_b, point.overlap);
+    const double error = std::abs(point.force - law) / (pull_off * r);
     ++out.pairs;
     out.force_rms += error * error, out.force_worst = std::max(out.force_worst, error);
   }

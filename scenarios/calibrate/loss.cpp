@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "scenarios/calibrate/pair_model.h"
@@ -23,16 +24,23 @@ std::vector<PlacedPacking> placed(const Data& data) {
   return out;
 }
 
+std::vector<ClusterPoint> fitted_clusters(const Data& data) {
+  std::vector<ClusterPoint> out;
+  std::ranges::copy_if(data.clusters, std::back_inserter(out), [](const ClusterPoint& point) { return !point.held_out; });
+  return out;
+}
+
 /// What a law of pairs says of the data; the knots have no part in it.
 struct OfPairs {
   double modulus = 0.0, adhesion = 0.0;
   std::vector<double> residuals;  ///< of pairs
-  std::vector<double> pressures;  ///< in packings, without what a curve adds [kPa]
+  std::vector<double> pressures;  ///< in packings, and then in clusters, without what a curve adds [kPa]
 };
 
 struct Loss {
   std::vector<PairPoint> pairs;
   std::vector<PlacedPacking> packings;
+  std::vector<ClusterPoint> clusters;
   double poisson = 0.0;
   LossWeights weights;
   DataScales scales;
@@ -42,7 +50,13 @@ struct Loss {
   [[nodiscard]] std::vector<double> pressures_by(const PairModel& pair) const {
     std::vector<double> out;
     for (const PlacedPacking& packing : packings) out.push_back(pair_pressure(packing.at, packing.point.radius, pair));
+    for (const ClusterPoint& cluster : clusters) out.push_back(pair_pressure(cluster.places, cluster.radius, pair));
     return out;
+  }
+  /// Of the pressure in a cluster [kPa].
+  [[nodiscard]] double noise_of(const ClusterPoint& cluster) const {
+    const double force = scales.stiffness * weights.distance * cluster.radius;
+    return pair_pressure(cluster.places, cluster.radius, [force](double, double) { return PairAnswer{force, 0.0}; });
   }
 
   /// JKR on all points.
@@ -72,6 +86,10 @@ struct Loss {
       out.push_back(std::sqrt(weights.packing) * (packing.point.pressure - p) /
                     (weights.pressure_floor + weights.pressure_relative * std::abs(packing.point.pressure)));
     }
+    for (std::size_t k = 0; k < clusters.size(); ++k) {
+      const double p = of_pairs[packings.size() + k] + curve_pressure(clusters[k].places, curve);
+      out.push_back(std::sqrt(weights.packing) * p / noise_of(clusters[k]));
+    }
     for (std::size_t k = 1; k + 1 < risen.size(); ++k) {
       const double bend = risen[k + 1].pressure - 2.0 * risen[k].pressure + risen[k - 1].pressure;
       out.push_back(std::sqrt(weights.roughness) * bend / weights.pressure_floor);
@@ -82,7 +100,7 @@ struct Loss {
     const Parameters parameters = Parameters::of(logarithms, knots);
     const OfPairs& by_law = pairs_by(pair_modulus(parameters.young, poisson), parameters.adhesion);
     out = by_law.residuals;
-    if (!packings.empty()) add_packings(by_law.pressures, parameters.knots, out);
+    if (!packings.empty() || !clusters.empty()) add_packings(by_law.pressures, parameters.knots, out);
   }
 };
 
@@ -130,7 +148,7 @@ LeastSquares loss_of(const Data& data, double poisson, const LossWeights& weight
   loss.knots.assign(knots.begin(), knots.end());
   for (const PairPoint& point : data.pairs)
     if (is_fitted(point, weights)) loss.pairs.push_back(point);
-  if (!knots.empty()) loss.packings = placed(data);
+  if (!knots.empty()) loss.packings = placed(data), loss.clusters = fitted_clusters(data);
   LeastSquares out;
   const auto bound = [&](const double(&limits)[2]) {
     out.low.push_back(std::log(limits[0]));
@@ -145,7 +163,8 @@ LeastSquares loss_of(const Data& data, double poisson, const LossWeights& weight
 
 LeastSquares loss_of_curve(const Data& data, const PairModel& pair, const LossWeights& weights, std::span<const cbm::PackingKnot> knots) {
   Loss loss;
-  loss.weights = weights, loss.packings = placed(data);
+  loss.weights = weights, loss.scales = scales_of(data, weights);
+  loss.packings = placed(data), loss.clusters = fitted_clusters(data);
   loss.knots.assign(knots.begin(), knots.end());
   LeastSquares out;
   out.low.assign(knots.size() - 1, std::log(Bounds::kIncrement[0]));

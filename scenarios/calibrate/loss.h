@@ -19,6 +19,7 @@ struct LossWeights {
   double packing = 1.0;             ///< w_p
   double pressure_floor = 0.005;    ///< σ_p [kPa] …
   double pressure_relative = 0.05;  ///< … and a part of |p|
+  double distance = 0.01;           ///< σ of the distances in clusters at rest, over R
   double roughness = 1e-3;          ///< μ of the second differences of p_c over pressure_floor
   double overlap_limit = 0.3;       ///< largest δ/R of pairs that are fitted, R of the smaller cell
 };
@@ -48,8 +49,9 @@ struct Bounds {
   static constexpr double kYoung[2] = {1e-5, 1e4}, kAdhesion[2] = {1e-7, 1e2}, kIncrement[2] = {1e-9, 1e3};
 };
 
-/// L = Σ [(F − F_JKR)/σ_F]² + w_a Σ [(A − πa²)/σ_A]² + w_p Σ [(p − p_law)/σ_p]² + μ Σ (second differences of p_c/σ)², over points that are not held
-/// out, as a least-squares problem in Parameters::logarithms(). Packings are summed where there are knots. The problem owns what it needs.
+/// L = Σ [(F − F_JKR)/σ_F]² + w_a Σ [(A − πa²)/σ_A]² + w_p Σ [(p − p_law)/σ_p]² + w_p Σ [p_law/σ_c]² of clusters + μ Σ (second differences of p_c/σ)²,
+/// over points that are not held out, as a least-squares problem in Parameters::logarithms(). σ_c is the pressure of the spheres in places that are wrong by σ of the
+/// distances, of springs of `stiffness`. Packings and clusters are summed where there are knots. The problem owns what it needs.
 [[nodiscard]] LeastSquares loss_of(const Data& data, double poisson, const LossWeights& weights, const DataScales& scales,
                                    std::span<const cbm::PackingKnot> knots);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 namespace morula::calibrate {
@@ -40,6 +41,10 @@ bool is_fixed(const LeastSquares& problem, std::size_t k) { return problem.low[k
 double objective(unsigned count, const double* scaled, double* gradient, void* data) {
   Search& search = *static_cast<Search*>(data);
   const LeastSquares& problem = *search.problem;
+  if (!std::all_of(scaled, scaled + count, [](double x) { return std::isfinite(x); })) {  // a search that is lost in a plain
+    if (gradient != nullptr) std::fill_n(gradient, count, 0.0);
+    return std::numeric_limits<double>::infinity();
+  }
   search.at.resize(count);
   for (unsigned k = 0; k < count; ++k) search.at[k] = std::clamp(scaled[k] * search.scale[k], problem.low[k], problem.high[k]);
   problem.residuals(search.at, search.residuals);

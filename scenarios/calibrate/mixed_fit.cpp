@@ -24,7 +24,7 @@ std::vector<double> terms(const std::array<bool, 2>& varied, double x, double y)
   return out;
 }
 
-/// Forces at all places as functions of the logarithms of both factors.
+/// Forces at all places, and the way, as functions of the logarithms of both factors.
 class Emulator {
  public:
   explicit Emulator(const MixedData& data) : data_(data) {
@@ -34,14 +34,15 @@ class Emulator {
       varied_[static_cast<std::size_t>(k)] = most > least;
     }
     const auto rows = static_cast<Eigen::Index>(data.trials.size()), columns = static_cast<Eigen::Index>(terms(varied_, 0.0, 0.0).size());
-    Eigen::MatrixXd design(rows, columns), force(rows, static_cast<Eigen::Index>(data.wanted.size()));
+    Eigen::MatrixXd design(rows, columns), answer(rows, static_cast<Eigen::Index>(data.wanted.size()) + 1);
     for (Eigen::Index t = 0; t < rows; ++t) {
       const MixedTrial& trial = data.trials[static_cast<std::size_t>(t)];
       const auto row = terms(varied_, std::log(trial.stiffness), std::log(trial.adhesion));
       for (Eigen::Index c = 0; c < columns; ++c) design(t, c) = row[static_cast<std::size_t>(c)];
-      for (Eigen::Index p = 0; p < force.cols(); ++p) force(t, p) = trial.force[static_cast<std::size_t>(p)];
+      for (Eigen::Index p = 0; p + 1 < answer.cols(); ++p) answer(t, p) = trial.force[static_cast<std::size_t>(p)];
+      answer(t, answer.cols() - 1) = trial.way;
     }
-    coefficients_ = design.colPivHouseholderQr().solve(force);
+    coefficients_ = design.colPivHouseholderQr().solve(answer);
   }
 
   [[nodiscard]] std::size_t term_count() const { return static_cast<std::size_t>(coefficients_.rows()); }
@@ -52,15 +53,17 @@ class Emulator {
   [[nodiscard]] Minimum best(std::size_t left_out) const {
     const auto residuals = [this, left_out](std::span<const double> at, std::vector<double>& out) {
       const auto row = terms(varied_, at[0], at[1]);
+      const auto answer = [&](std::size_t column) {
+        double sum = 0.0;
+        for (std::size_t c = 0; c < row.size(); ++c)
+          sum += row[c] * coefficients_(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(column));
+        return sum;
+      };
       const std::size_t places = data_.wanted.size();
       out.clear();
-      for (std::size_t p = 0; p < places; ++p) {
-        if (p * kParts / places == left_out) continue;
-        double force = 0.0;
-        for (std::size_t c = 0; c < row.size(); ++c)
-          force += row[c] * coefficients_(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(p));
-        out.push_back((force - data_.wanted[p]) / data_.scale);
-      }
+      for (std::size_t p = 0; p < places; ++p)
+        if (p * kParts / places != left_out) out.push_back((answer(p) - data_.wanted[p]) / data_.scale);
+      if (data_.way_scale > 0.0) out.push_back(answer(places) / data_.way_scale);
     };
     const LeastSquares problem{residuals, low_, high_};
     return minimise(problem, start());
@@ -86,7 +89,7 @@ class Emulator {
   const MixedData& data_;
   std::array<bool, 2> varied_{};
   std::vector<double> low_ = {0.0, 0.0}, high_ = {0.0, 0.0};
-  Eigen::MatrixXd coefficients_;  // by term and place
+  Eigen::MatrixXd coefficients_;  // by term and place, last of the way
 };
 
 Interval interval_around(double logarithm, const std::array<double, kParts>& without) {

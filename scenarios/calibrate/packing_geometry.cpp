@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "cbm/laws/sphere_caps.h"
+#include "core/ball.h"
 
 namespace morula::calibrate {
 namespace {
@@ -28,6 +31,45 @@ void in_groups(std::size_t count, std::size_t most, const Of& of) {
 
 /// From x to the nearest image, in a period.
 double nearest(double x, double period) { return x - period * std::round(x / period); }
+
+/// Spheres in rooms of this volume over R³; `edge`: of a periodic cube [µm], none: no box.
+PackingGeometry geometry(std::span<const Vec3d> centers, std::optional<double> edge, double room, double radius) {
+  PackingGeometry out;
+  out.room = room;
+  const auto cells = static_cast<double>(centers.size());
+  std::vector<double> distances;
+  std::vector<PackedPart> each(centers.size());
+  for (std::size_t i = 0; i < centers.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      Vec3d between = centers[i] - centers[j];
+      if (edge) between = {nearest(between.x, *edge), nearest(between.y, *edge), nearest(between.z, *edge)};
+      const double d = norm(between) / radius;
+      if (!(d < 2.0)) continue;
+      distances.push_back(d);
+      const cbm::SphereCaps caps = cbm::sphere_caps(1.0, 1.0, d);
+      for (const std::size_t of : {i, j}) {
+        each[of].packing += caps.volume_a / kBall;
+        each[of].press += d * caps.slope_a / (3.0 * cells * out.room);
+      }
+    }
+  std::ranges::sort(distances);
+  in_groups(distances.size(), kMostDistances, [&](std::size_t first, std::size_t last) {
+    double sum = 0.0;
+    for (std::size_t k = first; k < last; ++k) sum += distances[k];
+    const auto pairs = static_cast<double>(last - first);
+    out.neighbours.push_back({2.0 * pairs / cells, sum / pairs});
+  });
+  std::ranges::stable_sort(each, {}, &PackedPart::packing);
+  in_groups(each.size(), kMostParts, [&](std::size_t first, std::size_t last) {
+    PackedPart part;
+    for (std::size_t k = first; k < last; ++k) part.press += each[k].press, part.packing += each[k].press * each[k].packing;
+    if (!(part.press > 0.0)) return;  // nobody touches these
+    part.packing /= part.press;
+    out.parts.push_back(part);
+  });
+  add_up(out);
+  return out;
+}
 
 }  // namespace
 
@@ -55,40 +97,26 @@ PackingGeometry lattice_geometry(Arrangement lattice, double volume_ratio) {
 }
 
 PackingGeometry geometry_of_places(std::span<const Vec3d> centers, double edge, double radius) {
-  PackingGeometry out;
-  const auto cells = static_cast<double>(centers.size());
-  out.room = std::pow(edge / radius, 3.0) / cells;
-  std::vector<double> distances;
-  std::vector<PackedPart> each(centers.size());
-  for (std::size_t i = 0; i < centers.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) {
-      const Vec3d between = centers[i] - centers[j];
-      const double d = norm(Vec3d{nearest(between.x, edge), nearest(between.y, edge), nearest(between.z, edge)}) / radius;
-      if (!(d < 2.0)) continue;
-      distances.push_back(d);
-      const cbm::SphereCaps caps = cbm::sphere_caps(1.0, 1.0, d);
-      for (const std::size_t of : {i, j}) {
-        each[of].packing += caps.volume_a / kBall;
-        each[of].press += d * caps.slope_a / (3.0 * cells * out.room);
-      }
-    }
-  std::ranges::sort(distances);
-  in_groups(distances.size(), kMostDistances, [&](std::size_t first, std::size_t last) {
-    double sum = 0.0;
-    for (std::size_t k = first; k < last; ++k) sum += distances[k];
-    const auto pairs = static_cast<double>(last - first);
-    out.neighbours.push_back({2.0 * pairs / cells, sum / pairs});
-  });
-  std::ranges::stable_sort(each, {}, &PackedPart::packing);
-  in_groups(each.size(), kMostParts, [&](std::size_t first, std::size_t last) {
-    PackedPart part;
-    for (std::size_t k = first; k < last; ++k) part.press += each[k].press, part.packing += each[k].press * each[k].packing;
-    if (!(part.press > 0.0)) return;  // nobody touches these
-    part.packing /= part.press;
-    out.parts.push_back(part);
-  });
-  add_up(out);
-  return out;
+  return geometry(centers, edge, std::pow(edge / radius, 3.0) / static_cast<double>(centers.size()), radius);
+}
+
+PackingGeometry geometry_of_cluster(std::span<const Vec3d> centers, double radius) { return geometry(centers, {}, kBall, radius); }
+
+double packing_of_pair(double overlap) { return cbm::sphere_caps(1.0, 1.0, 2.0 - overlap).volume_a / kBall; }
+
+double packing_force_of_pair(const cbm::PackingCurve& curve, double radius_a, double radius_b, double overlap) {
+  if (curve.empty() || !(overlap > 0.0)) return 0.0;
+  const cbm::SphereCaps caps = cbm::sphere_caps(radius_a, radius_b, radius_a + radius_b - overlap);
+  return caps.slope_a * curve.at(caps.volume_a / ball_volume(radius_a)).pressure +
+         caps.slope_b * curve.at(caps.volume_b / ball_volume(radius_b)).pressure;
+}
+
+PairModel with_packing(PairModel pair, cbm::PackingCurve curve) {
+  return [pair = std::move(pair), curve = std::move(curve)](double overlap, double reduced_radius) {
+    PairAnswer out = pair(overlap, reduced_radius);
+    out.force += packing_force_of_pair(curve, 2.0 * reduced_radius, 2.0 * reduced_radius, overlap);
+    return out;
+  };
 }
 
 double pair_pressure(const PackingGeometry& at, double radius, const PairModel& pair) {

@@ -44,6 +44,18 @@ struct PackingGeometry {
 /// distance, and cells of about the same φ, are taken together, so that a law is quickly asked.
 [[nodiscard]] PackingGeometry geometry_of_places(std::span<const Vec3d> centers, double edge, double radius);
 
+/// The same of spheres in no box, each in a room as large as itself: at rest they bear no pressure.
+[[nodiscard]] PackingGeometry geometry_of_cluster(std::span<const Vec3d> centers, double radius);
+
+/// φ of one of two equal spheres that overlap by this part of their radius.
+[[nodiscard]] double packing_of_pair(double overlap);
+
+/// What a curve of packing adds to the force of two spheres [nN] whose radii and overlap are these [µm], when nobody else touches them.
+[[nodiscard]] double packing_force_of_pair(const cbm::PackingCurve& curve, double radius_a, double radius_b, double overlap);
+
+/// A law of pairs with what a curve of packing adds to two equal spheres that nobody else touches.
+[[nodiscard]] PairModel with_packing(PairModel pair, cbm::PackingCurve curve);
+
 /// Virial pressure of the pair forces alone, p = Σ z d F(2R − d)/(6V) + extra; twelve neighbours: 2√2 F/d² (cbm.md §3) [kPa]. radius R [µm].
 [[nodiscard]] double pair_pressure(const PackingGeometry& at, double radius, const PairModel& pair);
 

@@ -23,16 +23,35 @@ struct Group {
 };
 
 constexpr double kNearLargest = 0.75;
+constexpr double kAtRest = 50.0;      // points that one of a pair at rest counts
+constexpr double kMostPacked = 0.95;  // of the force of a pair, whatever packing adds: the rest is the table's
+
+/// Where pairs come to rest by themselves, with no force: the mean of δ/R*, and what packing adds there; no points: none was run.
+Group at_rest(const Data& data, const cbm::PackingCurve& packing) {
+  Group out;
+  for (const ClusterPoint& point : data.clusters) {
+    if (point.held_out || !point.is_pair()) continue;
+    const double r = 0.5 * point.radius, overlap = point.overlap_of_pair();
+    out.add({overlap / r, -packing_force_of_pair(packing, point.radius, point.radius, overlap) / r, 0.0, kAtRest, 0.0});
+  }
+  return out;
+}
 
 /// Scaled points by overlap, from where the tension is near its largest on, neighbours closer than a hundredth of the range together. Contact lines jump, so
 /// that the largest tension of all may stand anywhere between: pulled further apart, such pairs go on to hold most of it.
-std::vector<Group> scaled_points(const Data& data) {
+std::vector<Group> scaled_points(const Data& data, const cbm::PackingCurve& packing) {
   std::vector<Group> all;
+  const Group rest = at_rest(data, packing);
+  if (rest.points > 0.0) all.push_back(rest);
   for (const PairPoint& point : data.pairs) {
     if (point.held_out) continue;
     const double r = point.reduced_radius();
+    if (rest.points > 0.0 && point.force < 0.0 && point.overlap > rest.overlap * r)
+      continue;  // held by a contact line that does not let go
     const bool has_area = std::isfinite(point.area);
-    all.push_back({point.overlap / r, point.force / r, has_area ? point.area / (r * r) : 0.0, 1.0, has_area ? 1.0 : 0.0});
+    const double packed = packing_force_of_pair(packing, point.radius_a, point.radius_b, point.overlap);
+    const double force = point.force - std::min(packed, kMostPacked * std::abs(point.force));
+    all.push_back({point.overlap / r, force / r, has_area ? point.area / (r * r) : 0.0, 1.0, has_area ? 1.0 : 0.0});
   }
   std::stable_sort(all.begin(), all.end(), [](const Group& a, const Group& b) { return a.overlap < b.overlap; });
   const auto least = std::min_element(all.begin(), all.end(), [](const Group& a, const Group& b) { return a.force < b.force; });
@@ -104,8 +123,8 @@ std::vector<double> rising_areas(const std::vector<Group>& points) {
 
 }  // namespace
 
-Result<cbm::PairTable> fit_table(const Data& data, int most) {
-  const std::vector<Group> points = thinned(made_to_rise(scaled_points(data)), most);
+Result<cbm::PairTable> fit_table(const Data& data, const cbm::PackingCurve& packing, int most) {
+  const std::vector<Group> points = thinned(made_to_rise(scaled_points(data, packing)), most);
   const std::vector<double> areas = rising_areas(points);
   std::vector<cbm::PairTableKnot> knots;
   for (std::size_t k = 0; k < points.size(); ++k) knots.push_back({points[k].overlap, points[k].force, areas[k]});

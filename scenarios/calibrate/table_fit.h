@@ -8,8 +8,9 @@ namespace morula::calibrate {
 /// A table of force and area over δ/R* from pair points that are not held out, at any overlap. Points are scaled with R*, brought together where they
 /// lie closer than a hundredth of their range, made to rise (averages of neighbours that fall) and thinned to `most` knots. The first knot is the point of
 /// largest tension: points further apart, on the branch that a controlled force does not hold, are left out. Pairs become attached at δ = 0, or at the first
-/// knot where that is later. Errors (kInput): what PairTable::through refuses, with too few points in particular.
-Result<cbm::PairTable> fit_table(const Data& data, int most = 24);
+/// knot where that is later. The force is 0 where the pairs among the clusters rest, and points that pull though they are deeper are left out: contact lines that do not let go hold them. What a curve of packing adds to two cells is taken off first, so that
+/// both together are the points. Errors (kInput): what PairTable::through refuses, with too few points in particular.
+Result<cbm::PairTable> fit_table(const Data& data, const cbm::PackingCurve& packing = {}, int most = 24);
 
 /// A table as a model of attached pairs; beyond its break nothing.
 [[nodiscard]] PairModel table_model(cbm::PairTable table);

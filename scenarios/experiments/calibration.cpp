@@ -54,27 +54,34 @@ class Fitting {
   }
 
   Status table() {
-    auto found = calibrate::fit_table(points_);
-    if (!found.ok()) {
+    std::optional<FittedTable> one;
+    const auto make = [&](const calibrate::Data& now) -> Result<TrialLaw> {
+      MORULA_TRY_ASSIGN(one, table_with_packing(now));
+      return trial(*one);
+    };
+    if (const auto found = calibrate::fit_table(points_); !found.ok()) {
       out_.data.remarks.push_back("no table: " + found.error().message);
       return {};
     }
-    FittedTable one{.table = std::move(found).value(), .exponent = {}, .spheres = {}};
-    const calibrate::PairModel pair = calibrate::table_model(one.table);
-    std::vector<cbm::PackingKnot> packing;
-    const auto make = [&](const calibrate::Data& now) -> Result<TrialLaw> {
-      packing = calibrate::fit_curve(now, pair, options_);
-      return trial(one, pair, packing);
-    };
     MORULA_TRY(rest_in_packings(points_, make));
-    if (!points_.packings.empty()) packing = calibrate::fit_curve(points_, pair, options_);
-    one.exponent = calibrate::force_exponent(points_, one.table);
-    MORULA_TRY_ASSIGN(one.spheres, spheres_of(trial(one, pair, packing), packing, "the table", points_));
+    MORULA_TRY_ASSIGN(const TrialLaw law, make(points_));
+    one->exponent = calibrate::force_exponent(points_, one->table);
+    MORULA_TRY_ASSIGN(one->spheres, spheres_of(law, one->spheres.packing, "the table", points_));
     out_.table = std::move(one);
     return {};
   }
 
  private:
+  /// A table and the curve of packing that it leaves to packings. The table is what two cells do less what the curve adds to them, and so both are found in turns.
+  [[nodiscard]] Result<FittedTable> table_with_packing(const calibrate::Data& points) const {
+    constexpr int kTurns = 4;  // the curve acts on pairs that are pressed deeper than those of most packings
+    FittedTable out;
+    for (int turn = 1;; ++turn) {
+      MORULA_TRY_ASSIGN(out.table, calibrate::fit_table(points, curve_of(out.spheres.packing)));
+      if (turn == kTurns) return out;
+      out.spheres.packing = calibrate::fit_curve(points, calibrate::table_model(out.table), options_);
+    }
+  }
   /// Gives the spheres of the random packings the places in which laws that `make` fits to them let them rest, with the friction that such spheres have. That along
   /// their contacts is not known before there is a law: at first that of approach stands for it (decision 0073).
   template <class Make>
@@ -96,16 +103,18 @@ class Fitting {
   Result<SpheresOfLaw> spheres_of(const TrialLaw& law, std::vector<cbm::PackingKnot> packing, const char* name, calibrate::Data& points) {
     SpheresOfLaw out;
     out.packing = std::move(packing);
-    MORULA_TRY(places_.place(with_friction(law), true, points));
+    out.law = with_friction(law);
+    MORULA_TRY(places_.place(out.law, true, points));
     MORULA_TRY_ASSIGN(out.crowding, crowding_of(law, points));
     out.held_out = calibrate::held_out_errors(points, law.pair, law.sphere.packing, out_.sure.fit.pull_off(1.0));
     out.friction = friction_of(law, name);
+    MORULA_TRY_ASSIGN(out.clusters, spheres_in_clusters(out_.material, out_.data.clusters, out.law));
     return out;
   }
   /// Contact areas of spheres of the law where they come to rest in the packings; those that were held out are there already.
   Result<calibrate::FittedCrowding> crowding_of(const TrialLaw& law, calibrate::Data points) const {
     MORULA_TRY(places_.place(with_friction(law), false, points));
-    return calibrate::fit_crowded_area(points.packings, calibrate::resting_share(law.pair, out_.material.radius));
+    return calibrate::fit_crowded_area(points.packings, calibrate::resting_share(law.of_two(), out_.material.radius));
   }
   /// Nothing of what cannot be told, and a remark why.
   FrictionOfSpheres friction_of(const TrialLaw& law, const char* name) {
@@ -118,7 +127,7 @@ class Fitting {
         out_.data.remarks.push_back(std::string(what) + " for " + name + ": " + found.error().message);
     };
     if (!data.relaxations.empty())
-      take("no friction of approach", calibrate::fit_approach_friction(data.relaxations, law.pair), out.approach);
+      take("no friction of approach", calibrate::fit_approach_friction(data.relaxations, law.of_two()), out.approach);
     if (!data.pressed.empty()) take("no friction along the contact", along_of(with_friction(law)), out.along);
     constexpr double kHardlyTold = 100.0;  // of an interval, its end over its begin
     if (out.along && out.along->high > kHardlyTold * out.along->low)
@@ -140,7 +149,7 @@ class Fitting {
   /// Gives spheres of the law the friction of approach that their pairs tell, and along their contacts that which was found, or else the same.
   [[nodiscard]] TrialLaw with_friction(TrialLaw law) const {
     if (!out_.data.relaxations.empty())
-      if (const auto found = calibrate::fit_approach_friction(out_.data.relaxations, law.pair); found.ok())
+      if (const auto found = calibrate::fit_approach_friction(out_.data.relaxations, law.of_two()); found.ok())
         law.sphere.approach_factor = found->factor;
     law.sphere.along_factor = along_.value_or(law.sphere.approach_factor);
     return law;
@@ -153,12 +162,11 @@ class Fitting {
     out.sphere.packing = curve_of(fit.parameters.knots);
     return out;
   }
-  [[nodiscard]] TrialLaw trial(const FittedTable& table, const calibrate::PairModel& pair,
-                               std::span<const cbm::PackingKnot> packing) const {
+  [[nodiscard]] TrialLaw trial(const FittedTable& fitted) const {
     TrialLaw out = trial(out_.sure.fit);
-    out.pair = pair;
-    out.sphere.law = cbm::table_law(table.table);
-    out.sphere.packing = curve_of(packing);
+    out.pair = calibrate::table_model(fitted.table);
+    out.sphere.law = cbm::table_law(fitted.table);
+    out.sphere.packing = curve_of(fitted.spheres.packing);
     return out;
   }
 
@@ -184,12 +192,6 @@ Status fit_on_root(const Study& study, int threads, Calibration& out) {
 }
 
 }  // namespace
-
-calibrate::PairModel Calibration::law_to_take() const {
-  const calibrate::Fit& fit = sure.fit;
-  return table_is_better() ? calibrate::table_model(table->table)
-                           : calibrate::jkr_model(fit.parameters.young, fit.poisson, fit.parameters.adhesion);
-}
 
 double Calibration::rest_of_jkr() const {
   const cbm::SphereParameters sphere{.young = sure.fit.parameters.young, .poisson = sure.fit.poisson};

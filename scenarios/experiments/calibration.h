@@ -15,6 +15,7 @@
 #include "scenarios/experiments/data_of_runs.h"
 #include "scenarios/experiments/mixed_contact.h"
 #include "scenarios/experiments/run_experiments.h"
+#include "scenarios/experiments/spheres_in_clusters.h"
 #include "study/study.h"
 
 namespace morula::scenarios {
@@ -25,12 +26,14 @@ struct FrictionOfSpheres {
   std::optional<calibrate::FittedAlong> along;        ///< along the contact: balls of cells that are pressed flat
 };
 
-/// What spheres of a pair law have beside it, found from the same shells, and how well they do.
+/// Spheres of a pair law, with what they have beside it, found from the same shells, and how well they do.
 struct SpheresOfLaw {
+  TrialLaw law;                           ///< with its friction, but for that along the contact as it was found last
   std::vector<cbm::PackingKnot> packing;  ///< what their pairs leave to packings; empty: nothing
   calibrate::FittedCrowding crowding;     ///< contact areas among many
   FrictionOfSpheres friction;
   calibrate::HeldOutErrors held_out;
+  std::vector<RestingCluster> clusters;  ///< those of shells, fitted and held out
 };
 
 /// A law by a table, fitted to the same points as JKR.
@@ -57,8 +60,8 @@ struct Calibration {
   [[nodiscard]] double rest_of_jkr() const;
   /// JKR says nothing true of contacts that are so large, their area least of all.
   [[nodiscard]] bool jkr_is_beyond_range() const { return rest_of_jkr() > cbm::kJkrRange; }
-  /// The pair law to take, and what its spheres have beside it.
-  [[nodiscard]] calibrate::PairModel law_to_take() const;
+  /// The law to take of two spheres that nobody else touches, and what they have beside it.
+  [[nodiscard]] calibrate::PairModel law_to_take() const { return spheres_to_take().law.of_two(); }
   [[nodiscard]] const SpheresOfLaw& spheres_to_take() const { return table_is_better() ? table->spheres : jkr; }
   /// Whether the table is the law to take: where JKR is beyond its range at rest, and where the table is better on what was held out.
   [[nodiscard]] bool table_is_better() const {

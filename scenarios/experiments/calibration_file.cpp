@@ -63,13 +63,24 @@ std::string packings_text(const calibrate::HeldOutErrors& errors) {
          "]";
 }
 
-std::string errors_text(const calibrate::HeldOutErrors& errors) {
+/// Where cells come to rest by themselves: how many, distance of neighbours of shells and of spheres [µm].
+std::string clusters_text(const std::vector<RestingCluster>& all) {
+  return "[" +
+         joined(all,
+                [](const RestingCluster& c) {
+                  return "\"" + std::to_string(c.cells) + number_text(": %.3f", c.shells) + number_text(" %.3f\"", c.spheres);
+                }) +
+         "]";
+}
+
+std::string errors_text(const calibrate::HeldOutErrors& errors, const std::vector<RestingCluster>& clusters) {
   return "{pairs: " + std::to_string(errors.pairs) + ", force_rms: " + number(errors.force_rms) +
          ", force_worst: " + number(errors.force_worst) + ", packings: " + std::to_string(errors.packings) +
          ", pressure_rms: " + number(errors.pressure_rms) + ", pressure_worst: " + number(errors.pressure_worst) +
          ", lattices: " + std::to_string(errors.lattices) + ", lattice_rms: " + number(errors.lattice_rms) +
          ", lattice_worst: " + number(errors.lattice_worst) + ", random: " + packings_text(errors) +
-         "}  # random: V/V0: Pa of shells, of spheres";
+         (clusters.empty() ? "" : ", clusters: " + clusters_text(clusters)) + "}  # random: V/V0: Pa of shells, of spheres" +
+         (clusters.empty() ? "" : "; clusters at rest: cells: um between neighbours, shells, spheres");
 }
 
 /// Least and largest of what the fitted points have.
@@ -129,12 +140,14 @@ std::string with_shells_text(const std::optional<MixedContact>& found) {
          "  # from halfway between both, root mean square in parts of the pull-off force 1.5 pi W R*" +
          "\n  unfitted: " + number(found->unfitted) + "  # the same with both factors 1" + "\n  outside: " + number(found->outside) +
          "  # beyond both, root mean square, and at worst\n  outside_worst: " + number(found->outside_worst) +
+         "\n  promoted: " + number(found->promoted) +
+         "  # way of the twelve neighbours of a sphere that becomes a shell, outwards, over R" +
          (found->held_out ? "\n  held_out: " + number(*found->held_out) + "  # misfit where radii are 1 : 1.3 and 1.3 : 1" : "") + "\n";
 }
 
 /// What spheres of a law have beside it.
 std::string spheres_text(const SpheresOfLaw& found) {
-  return "  held_out: " + errors_text(found.held_out) + "\n" + friction_text(found.friction) +
+  return "  held_out: " + errors_text(found.held_out, found.clusters) + "\n" + friction_text(found.friction) +
          (found.packing.empty() ? "" : "  packing: " + knots_text(found.packing) + "\n") + crowding_text(found.crowding);
 }
 

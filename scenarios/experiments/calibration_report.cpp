@@ -1,4 +1,5 @@
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -222,6 +223,30 @@ CurvePlot packing_plot(const Calibration& found) {
   return plot;
 }
 
+/// How far spheres are from shells in clusters of as many cells, on average over these, the worst, over R.
+double worst_cluster(const std::vector<RestingCluster>& clusters) {
+  std::map<std::size_t, std::pair<double, int>> errors;  // sum and number by cells
+  for (const RestingCluster& one : clusters) errors[one.cells].first += one.error(), ++errors[one.cells].second;
+  double out = 0.0;
+  for (const auto& [cells, sum] : errors) out = std::max(out, std::abs(sum.first / sum.second));
+  return out;
+}
+
+/// Distances of neighbours where cells come to rest by themselves.
+CurvePlot cluster_plot(const std::vector<RestingCluster>& clusters) {
+  CurvePlot plot =
+      plot_of("Cells that have come together by themselves: distance of neighbours", axis("cells", "", true), axis("distance", "µm"));
+  Curve shells = curve("shells", CurveStyle::kPoints), held_out = curve("shells, held out", CurveStyle::kPoints),
+        spheres = curve("spheres", CurveStyle::kPoints);
+  for (const RestingCluster& one : clusters) {
+    Curve& to = one.held_out ? held_out : shells;
+    to.x.push_back(static_cast<double>(one.cells)), to.y.push_back(one.shells);
+    spheres.x.push_back(static_cast<double>(one.cells)), spheres.y.push_back(one.spheres);
+  }
+  plot.curves = {std::move(shells), std::move(held_out), std::move(spheres)};
+  return plot;
+}
+
 /// How far a law is off on pairs that were held out; where none were, nothing judges it.
 ReportNumber error_of_pairs(const std::string& law, const calibrate::HeldOutErrors& held_out) {
   if (held_out.pairs == 0) return {law + " on what was held out", "not judged", "no pair was held out"};
@@ -258,6 +283,9 @@ ReportContent content_of(const Calibration& found, const std::string& command) {
     if (const calibrate::FittedCrowding& area = found.spheres_to_take().crowding; area.packings > 0)
       out.key_numbers.push_back({"contact area in a random packing that was held out, root mean square", three(100.0 * area.held_out),
                                  "% (by pairs alone " + three(100.0 * area.pairs_alone) + " %)"});
+    if (const auto& clusters = found.spheres_to_take().clusters; !clusters.empty())
+      out.key_numbers.push_back({"distance of spheres that have come together by themselves, mean of as many cells, off by at most",
+                                 three(100.0 * worst_cluster(clusters)), "% of R"});
     const auto add_friction = [&](const char* what, const auto& one) {
       if (one)
         out.key_numbers.push_back(
@@ -276,6 +304,7 @@ ReportContent content_of(const Calibration& found, const std::string& command) {
     out.key_numbers.push_back({"force of such a pair from halfway between two shells and two spheres, root mean square",
                                three(100.0 * mixed->misfit),
                                "% of the pull-off force (without both factors " + three(100.0 * mixed->unfitted) + " %)"});
+    out.key_numbers.push_back({"neighbours of a sphere that becomes a shell go outwards by", three(100.0 * mixed->promoted), "% of R"});
   }
   const auto add = [&](const CurvePlot& plot) { out.plots.push_back({"", curves_svg(plot, SvgUse::kInline)}); };
   add(pair_plot(found, false));
@@ -283,6 +312,7 @@ ReportContent content_of(const Calibration& found, const std::string& command) {
   if (!found.data.points.packings.empty()) add(packing_plot(found));
   if (!found.spheres_to_take().crowding.knots.empty()) add(crowding_plot(found));
   add(pair_plot(found, true));
+  if (const auto& clusters = found.spheres_to_take().clusters; !clusters.empty()) add(cluster_plot(clusters));
   if (found.with_shells) add(mixed_plot(*found.with_shells));
   if (!found.data.relaxations.empty()) add(relaxation_plot(found));
   if (const auto& along = found.spheres_to_take().friction.along) add(pressed_plot(*along));

@@ -12,10 +12,11 @@
 namespace morula::scenarios {
 namespace {
 
-constexpr int kPlaces = 50;        // of a curve, on the way in and on the way out
-constexpr double kLoosest = 1.1;   // V/V0 of the first point of a packing
-constexpr double kAtRest = 0.02;   // part of its way that a relaxed pair may still come in the last tenth of its time
-constexpr double kNoForce = 0.01;  // of the largest force: a pair that bears less has parted
+constexpr int kPlaces = 50;              // of a curve, on the way in and on the way out
+constexpr double kLoosest = 1.1;         // V/V0 of the first point of a packing
+constexpr double kAtRest = 0.02;         // part of its way that a relaxed pair may still come in the last tenth of its time
+constexpr double kClusterAtRest = 0.01;  // of R: as much as the distances of a cluster may be wrong
+constexpr double kNoForce = 0.01;        // of the largest force: a pair that bears less has parted
 
 /// A pair at one rate, by the way of its traps.
 struct Curve {
@@ -88,6 +89,18 @@ Status add_pair(const std::vector<Curve>& curves, int block, ExperimentData& out
 }
 
 /// With a remark where the cells still moved at the end.
+void add_cluster(const Experiment& experiment, FoundCluster cluster, int block, ExperimentData& out) {
+  if (cluster.still > kClusterAtRest * cluster.radius)
+    out.remarks.push_back(experiment.name + ": the cells still moved at the end, by up to " +
+                          number_text("%.2g", cluster.still / cluster.radius) + " R in its last tenth");
+  out.points.clusters.push_back({.experiment = block,
+                                 .places = calibrate::geometry_of_cluster(cluster.centers, cluster.radius),
+                                 .radius = cluster.radius,
+                                 .held_out = cluster.held_out});
+  out.clusters.push_back(std::move(cluster));
+}
+
+/// With a remark where the cells still moved at the end.
 void add_relaxation(const Experiment& experiment, calibrate::Relaxation pair, ExperimentData& out) {
   const std::size_t n = pair.overlap.size();
   const double end = n > 0 ? pair.overlap.back() : 0.0, late = n > 0 ? pair.overlap[n - 1 - n / 10] : 0.0;
@@ -120,6 +133,9 @@ Result<ExperimentData> data_of_runs(std::span<const Experiment> experiments, std
     } else if (experiment.kind == Experiment::Kind::kRelaxation) {
       MORULA_TRY_ASSIGN(auto pair, relaxation_of_run(experiment, outcomes[e].run));
       add_relaxation(experiment, std::move(pair), out);
+    } else if (experiment.kind == Experiment::Kind::kCluster) {
+      MORULA_TRY_ASSIGN(auto cluster, cluster_of_run(experiment, outcomes[e].run));
+      add_cluster(experiment, std::move(cluster), block++, out);
     } else if (experiment.kind == Experiment::Kind::kPressed) {
       MORULA_TRY_ASSIGN(auto pressed, pressed_of_run(experiment, outcomes[e].run));
       out.pressed.push_back(std::move(pressed));

@@ -15,6 +15,7 @@ struct ExperimentData {
   calibrate::Data points;
   std::vector<FoundPacking> packings;  ///< of points.packings, in their order
   std::vector<calibrate::Relaxation> relaxations;
+  std::vector<FoundCluster> clusters;  ///< of points.clusters, in their order
   std::vector<calibrate::PressedCluster> pressed;
   std::vector<std::uint32_t> pressed_seeds;  ///< of `pressed`
   std::vector<std::string> remarks;          ///< experiments that failed, curves that are not straight in the rate

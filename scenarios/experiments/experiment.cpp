@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/ball.h"
+#include "core/close_packing.h"
 #include "core/numbers/joined.h"
 #include "core/numbers/number_text.h"
 #include "core/vec3.h"
@@ -36,6 +37,9 @@ constexpr int kRelaxationOutputs = 120, kRelaxationSteps = 1200;  // at least
 constexpr double kLeastWay = 0.1;                                 // δ/R at rest that is guessed at least
 constexpr std::uint32_t kPressedClusters = 3;                     // each with other places
 constexpr int kPressedCells = 32, kPressedSteps = 240;
+constexpr double kClusterTime = 4.0;  // in the time of a relaxing pair
+constexpr int kClusterOutputs = 10;
+constexpr double kTouch = 1.99;                         // distance of the centres of cells that touch, in radii
 constexpr double kPressTime = 4.0;                      // in the time of a relaxing pair
 constexpr double kRestTime = 4.0, kLeastRest = 1800.0;  // of spheres in a packing, at most: in the same, but no less than this [s]
 constexpr int kAdhereOutputs = 8;                       // before the plates set out
@@ -137,8 +141,12 @@ Experiment pair_experiment(const CellMaterial& material, const std::string& name
 
 Experiment mixed_pair_experiment(const CellMaterial& material, const std::string& name, double radius_of_sphere, double radius_of_shell,
                                  const cbm::SphereParameters& sphere, std::uint32_t seed) {
-  const std::string keys = "cbm: {law: jkr, packing: none, young: " + of(sphere.young, "kPa") + ", poisson: " + number(sphere.poisson) +
-                           ", with_shells: {stiffness: " + number(sphere.with_shells.stiffness) +
+  const auto knot = [](const cbm::PackingKnot& k) {
+    return "{packing: " + of(100.0 * k.packing, "%") + ", pressure: " + of(k.pressure, "kPa") + "}";
+  };
+  const std::string packing = sphere.packing.empty() ? "none" : "{law: knots, knots: [" + joined(sphere.packing.knots(), knot) + "]}";
+  const std::string keys = "cbm: {law: jkr, packing: " + packing + ", young: " + of(sphere.young, "kPa") +
+                           ", poisson: " + number(sphere.poisson) + ", with_shells: {stiffness: " + number(sphere.with_shells.stiffness) +
                            ", adhesion: " + number(sphere.with_shells.adhesion) + "}}";
   Experiment e = pair_of(material, name, radius_of_sphere, radius_of_shell, mixed_pair_rate(material), keys, seed);
   e.kind = Experiment::Kind::kMixedPair;
@@ -200,6 +208,25 @@ std::string at_text(std::span<const Vec3d> places, const char* body) {
   return "initial:\n  - {type: cell, at: [" + joined(places, place) + "], as: " + body + "}\n";
 }
 
+std::vector<Vec3d> places_of_cluster(int cells, double radius, std::uint32_t seed) {
+  const double distance = kTouch * radius;
+  std::vector<Vec3d> out = cells == 13 ? close_packed_places(1, distance) : cube_of(calibrate::Arrangement::kFaceCentred);
+  if (cells < 13)
+    for (Vec3d& p : out) p = p * (std::numbers::sqrt2 * distance);
+  if (cells > static_cast<int>(out.size())) return ball_of_cells(cells, radius, seed);
+  out.resize(static_cast<std::size_t>(cells));
+  return out;
+}
+
+/// Cells of the type in no box, with the friction of the type.
+std::string cluster_text(const CellMaterial& material, const Experiment& e, int cells, double end, const std::string& initial) {
+  const double box = 12.0 * material.radius * std::cbrt(static_cast<double>(cells));
+  return head(material, e, "cell, cell", end, end / kClusterOutputs) + "domain: {size: " + place({box, box, box}) +
+         ", boundary: open}\ncell_types:\n" +
+         type_text(material, "cell", material.radius, "cell: " + of(material.adhesion, "nN/um"), friction_text(material.friction)) +
+         initial;
+}
+
 /// A plate at this height that faces the middle and comes nearer after `from` [s], by `way` [µm] until `to` [s].
 std::string plate_text(const char* name, double height, double size, double from, double to, double way) {
   const std::string inwards = height > 0.0 ? "[0, 0, -1]" : "[0, 0, 1]";
@@ -259,6 +286,38 @@ Experiment relaxation_experiment(const CellMaterial& material, std::uint32_t see
   return e;
 }
 
+double time_of_cluster(const CellMaterial& material) { return kClusterTime * time_of_relaxation(material); }
+
+Experiment cluster_experiment(const CellMaterial& material, int cells, std::uint32_t seed) {
+  Experiment e{.kind = Experiment::Kind::kCluster,
+               .seed = seed,
+               .name = "cluster_of_" + std::to_string(cells) + "_" + std::to_string(seed),
+               .purpose = std::to_string(cells) + " cells that touch and come together by themselves",
+               .text = {},
+               .radius_a = material.radius,
+               .radius_b = material.radius,
+               .friction = material.friction,
+               .work = cells * 0.25 * time_of_cluster(material)};
+  e.text = cluster_text(material, e, cells, time_of_cluster(material), at_text(places_of_cluster(cells, material.radius, seed), "shell"));
+  return e;
+}
+
+std::string study_of_spheres_in_cluster(const CellMaterial& material, std::span<const Vec3d> centers) {
+  const Experiment e{.kind = Experiment::Kind::kCluster, .name = "spheres", .purpose = "Spheres in a cluster", .text = {}};
+  return cluster_text(with_plain_spheres(material), e, static_cast<int>(centers.size()), time_of_cluster(material),
+                      at_text(centers, "sphere"));
+}
+
+std::string study_of_promotion(const CellMaterial& material) {
+  constexpr int kCells = 13;
+  const Experiment e{.kind = Experiment::Kind::kCluster, .name = "promotion", .purpose = "A sphere becomes a shell", .text = {}};
+  const double time = time_of_cluster(material);
+  return cluster_text(with_plain_spheres(material), e, kCells, 2.0 * time,
+                      at_text(places_of_cluster(kCells, material.radius, 1), "sphere")) +
+         "coupling: {regions: [{name: middle, shape: sphere, center: " + place({}) + ", radius: " + of(0.1 * material.radius, "um") +
+         ", margin: " + of(material.radius, "um") + ", as: shell, from: " + of(time, "s") + "}]}\n";
+}
+
 Experiment pressed_experiment(const CellMaterial& material, std::uint32_t seed) { return pressed(material, seed, "shell"); }
 
 Experiment pressed_spheres_experiment(const CellMaterial& material, std::uint32_t seed) {
@@ -314,12 +373,26 @@ enum Dispensable : int {
   kEqualSlowest,
   kRelaxing,
   kPressedBalls,
+  kClusters,
   kMixedPairs,
   kUnequalFaster,
   kHeldOutPacking,
   kUnequalSlowest,
   kLattices
 };
+
+/// Clusters to fit to, small ones three times, each with meshes that are turned otherwise; and a pair and a ball that judge.
+void add_clusters(const CellMaterial& material, std::vector<Experiment>& out) {
+  const auto add = [&](int cells, std::uint32_t seeds, bool held_out) {
+    for (std::uint32_t seed = 1; seed <= seeds; ++seed) {
+      out.push_back(cluster_experiment(material, cells, seed));
+      out.back().held_out = held_out;
+      out.back().dispensable = kClusters;
+    }
+  };
+  add(2, 3, false), add(3, 3, false), add(4, 3, false), add(13, 1, false);
+  add(38, 1, true);
+}
 
 /// Cells of two radii at all rates, the fastest first.
 void add_pairs(const CellMaterial& material, const std::string& name, double ratio, bool held_out, std::vector<Experiment>& out) {
@@ -348,6 +421,7 @@ std::vector<Experiment> experiments_for(const CellMaterial& material, bool packi
         out.push_back(pressed_experiment(material, seed));
         out.back().dispensable = kPressedBalls;
       }
+    if (material.adhesion > 0.0 && material.friction.approach > 0.0) add_clusters(material, out);
     for (std::uint32_t seed = 1; seed <= kRandomFitted + kRandomHeldOut; ++seed) {
       out.push_back(random_packing_experiment(material, seed));
       out.back().dispensable = out.back().held_out ? kHeldOutPacking : seed > 1 ? kSecondPacking : kFirstPacking;

@@ -1,5 +1,6 @@
 #include "scenarios/experiments/found_curves.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -51,6 +52,26 @@ Result<calibrate::Relaxation> relaxation_of_run(const Experiment& experiment, co
     if (moment.cells.size() != 2) return Error{ErrorKind::kFile, "a pair of '" + run.string() + "' has not two cells", ""};
     out.time.push_back(moment.time);
     out.overlap.push_back(experiment.radius_a + experiment.radius_b - norm(moment.cells[1].centroid - moment.cells[0].centroid));
+  }
+  return out;
+}
+
+double FoundCluster::distance(std::span<const Vec3d> of) const {
+  double sum = 0.0, pairs = 0.0;
+  for (std::size_t i = 0; i < centers.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (norm(centers[i] - centers[j]) < 2.0 * radius) sum += norm(of[i] - of[j]), pairs += 1.0;
+  return pairs > 0.0 ? sum / pairs : 2.0 * radius;
+}
+
+Result<FoundCluster> cluster_of_run(const Experiment& experiment, const std::filesystem::path& run) {
+  MORULA_TRY_ASSIGN(const auto moments, all_snapshots(run));
+  FoundCluster out{.radius = experiment.radius_a, .held_out = experiment.held_out, .centers = {}};
+  if (moments.size() < 2) return Error{ErrorKind::kFile, "the cluster of '" + run.string() + "' has no end", ""};
+  const auto& before = moments[moments.size() - 2].cells;
+  for (std::size_t i = 0; i < moments.back().cells.size(); ++i) {
+    out.centers.push_back(moments.back().cells[i].centroid);
+    if (i < before.size()) out.still = std::max(out.still, norm(out.centers.back() - before[i].centroid));
   }
   return out;
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <span>
 #include <vector>
 
 #include "core/result.h"
@@ -28,6 +29,19 @@ struct FoundPacking {
   double edge = 0.0;             ///< of its box [µm]
 };
 
+/// Cells that have come together by themselves.
+struct FoundCluster {
+  double radius = 0.0;  ///< of the free cells [µm]
+  bool held_out = false;
+  std::vector<Vec3d> centers;  ///< of volume, at the end [µm]
+  double still = 0.0;          ///< way of the one that moved most between the last two outputs [µm]
+
+  /// Mean distance of these centres [µm] over the pairs of cells that overlap at the end as balls.
+  [[nodiscard]] double distance(std::span<const Vec3d> of) const;
+};
+
+/// Errors (kFile): files of the run that are missing or damaged.
+Result<FoundCluster> cluster_of_run(const Experiment& experiment, const std::filesystem::path& run);
 /// Two cells that come together by themselves, over time: δ between centres of volume.
 Result<calibrate::Relaxation> relaxation_of_run(const Experiment& experiment, const std::filesystem::path& run);
 /// A ball of cells that plates press flat: their work.

@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "core/parallel/threads.h"
 #include "results/file_io.h"
 #include "scenarios/experiments/calibration.h"
 #include "scenarios/experiments/found_curves.h"
@@ -16,8 +17,9 @@
 namespace morula::scenarios {
 namespace {
 
-constexpr std::array kStiffness = {0.25, 0.5, 1.0, 2.0}, kAdhesion = {0.7, 0.85, 1.0, 1.15};  // that are tried
-constexpr int kPlaces = 60;                                                                   // of a comparison, on each way
+constexpr std::array kStiffness = {0.25, 0.5, 1.0, 2.0, 4.0}, kAdhesion = {0.55, 0.7, 0.85, 1.0, 1.15};  // that are tried
+constexpr double kWay = 0.01;  // of R: as much may neighbours move for what a force counts that is wrong by the scale of forces
+constexpr int kPlaces = 60;    // of a comparison, on each way
 
 /// Force over overlap on the way in or out.
 class Branch {
@@ -134,7 +136,7 @@ bool is_mixed(const Experiment& e, bool judges) { return e.kind == Experiment::K
 /// What the root knows of mixed pairs, and what it makes of them.
 class MixedPairs {
  public:
-  explicit MixedPairs(Calibration& found) : found_(found) {}
+  MixedPairs(Calibration& found, int threads) : found_(found), threads_(threads) {}
 
   /// Fits both factors to the trials.
   Status fit() {
@@ -154,6 +156,7 @@ class MixedPairs {
     const Comparison compare(found_, *shells, 0.5 * found_.material.radius, deepest);
     calibrate::MixedData data{.wanted = compare.wanted(), .trials = {}, .scale = compare.scale()};
     for (const auto& [factors, curves] : trials) data.trials.push_back({factors.stiffness, factors.adhesion, compare.forces(curves)});
+    if (has_clusters()) MORULA_TRY(add_promotions(data));
     const auto fitted = calibrate::fit_mixed(data);
     if (!fitted.ok()) return remark("contact of spheres with shells follows the modulus of the sphere: " + fitted.error().message);
     MixedContact& out = found_.with_shells.emplace();
@@ -196,10 +199,31 @@ class MixedPairs {
       }
     }
     if (count > 0) out.held_out = std::sqrt(square / count);
+    if (has_clusters()) {
+      MORULA_TRY_ASSIGN(out.promoted, way_with({out.fit.stiffness, out.fit.adhesion}));
+    }
     return {};
   }
 
  private:
+  /// Cells that adhere and have friction come to rest in clusters.
+  [[nodiscard]] bool has_clusters() const { return !found_.data.clusters.empty(); }
+  /// How far the neighbours of a sphere move when it becomes a shell, over R.
+  [[nodiscard]] Result<double> way_with(const cbm::WithShells& factors) const {
+    TrialLaw law = found_.spheres_to_take().law;
+    law.sphere.with_shells = factors;
+    return way_of_promotion(found_.material, law);
+  }
+  /// What each trial does where a sphere becomes a shell.
+  Status add_promotions(calibrate::MixedData& data) const {
+    std::vector<std::optional<Result<double>>> ways(data.trials.size());
+    one_by_one(threads_, ways.size(), [&](std::size_t k) { ways[k] = way_with({data.trials[k].stiffness, data.trials[k].adhesion}); });
+    data.way_scale = kWay;
+    for (std::size_t k = 0; k < ways.size(); ++k) {
+      MORULA_TRY_ASSIGN(data.trials[k].way, *ways[k]);
+    }
+    return {};
+  }
   Status remark(std::string text) {
     found_.data.remarks.push_back(std::move(text));
     return {};
@@ -218,6 +242,7 @@ class MixedPairs {
   }
 
   Calibration& found_;
+  int threads_;
 };
 
 /// Some numbers of the root on every rank; empty: it has none.
@@ -272,8 +297,16 @@ Status fit_with_shells(Calibration& found, const ExperimentRequest& request, con
   const calibrate::Fit& fit = found.sure.fit;
   const std::vector<double> body = from_root({fit.parameters.young, fit.poisson}, comm);
   cbm::SphereParameters sphere{.young = body[0], .poisson = body[1]};
+  std::vector<double> numbers;
+  for (const cbm::PackingKnot& knot : found.spheres_to_take().packing) numbers.insert(numbers.end(), {knot.packing, knot.pressure});
+  numbers = from_root(numbers, comm);
+  std::vector<cbm::PackingKnot> knots;
+  for (std::size_t k = 0; k < numbers.size(); k += 2) knots.push_back({numbers[k], numbers[k + 1]});
+  if (!knots.empty()) {
+    MORULA_TRY_ASSIGN(sphere.packing, cbm::PackingCurve::through(knots));
+  }
   MORULA_TRY(run_mixed(found, false, sphere, request, comm));
-  MixedPairs pairs(found);
+  MixedPairs pairs(found, request.threads);
   MORULA_TRY(agree(comm.is_root() ? pairs.fit() : Status{}, comm));
   std::vector<double> factors;
   if (found.with_shells) factors = {found.with_shells->fit.stiffness, found.with_shells->fit.adhesion};

@@ -4,7 +4,7 @@
 #include "cbm/spheres.h"
 #include "core/result.h"
 #include "coupling/simulation.h"
-#include "scenarios/calibrate/pair_model.h"
+#include "scenarios/calibrate/packing_geometry.h"
 #include "study/study.h"
 
 namespace morula::scenarios {
@@ -13,8 +13,14 @@ namespace morula::scenarios {
 struct TrialLaw {
   cbm::SphereParameters sphere;  ///< with its curve of packing
   double adhesion = 0.0;         ///< W of two of them [nN/µm]
-  calibrate::PairModel pair;     ///< what `sphere` is for an attached pair
+  calibrate::PairModel pair;     ///< what `sphere` is for an attached pair, without packing
+
+  /// The same with what packing adds to two that nobody else touches.
+  [[nodiscard]] calibrate::PairModel of_two() const { return calibrate::with_packing(pair, sphere.packing); }
 };
+
+/// Lets the spheres of a simulation come to rest, or go on until `end` [s]; `radius`: of a sphere [µm]. Errors: kPhysics, spheres that find no rest; steps that fail.
+Status come_to_rest(Simulation& simulation, double radius, double end);
 
 /// A simulation of the first moment of a study whose one type has spheres of a law on trial, in place of shells that adhere with `adhesion_of_shells` [nN/µm]. One rank
 /// and thread. Errors: those of make_tissue() and Simulation::create().

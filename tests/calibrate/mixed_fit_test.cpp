@@ -43,6 +43,25 @@ TEST(MixedFit, FindsBothFactors) {
   }
 }
 
+/// Places that do not tell the stiffness, for all cells there hardly touch, and a way that does: k = 1.3 is where nobody moves, and the interval is that of the places along the
+/// line on which the way is 0.
+TEST(MixedFit, FindsWhereNobodyMovesWhenACellBecomesAShell) {
+  MixedData data = data_for(0.5, 0.9, 0.0, 1);
+  for (double& wanted : data.wanted) wanted = force(0.0, 0.9, 0.0);
+  for (MixedTrial& trial : data.trials) {
+    for (double& f : trial.force) f = force(0.0, trial.adhesion, 0.0);
+    trial.way = 0.04 * std::log(trial.stiffness / 1.3);
+  }
+  data.way_scale = 0.005;
+  const auto fit = fit_mixed(data);
+  ASSERT_TRUE(fit.ok()) << fit.error().message;
+  EXPECT_NEAR(fit->stiffness, 1.3, 1e-3);
+  EXPECT_NEAR(fit->adhesion, 0.9, 0.005);
+  EXPECT_LT(fit->stiffness_interval.high, 1.4);
+  data.way_scale = 0.0;
+  EXPECT_GT(std::abs(fit_mixed(data)->stiffness - 1.3), 0.1) << "only the way tells";
+}
+
 /// With noise of 8 % of the scale at every place of every curve, as contact lines make that jump from node to node: 95 % of the intervals should cover the truth.
 /// Of 100 draws 89 to 99 do so with a probability above 0.99 (binomial), and the polynomial's own error is small against the noise.
 TEST(MixedFit, TellsHowSureItIs) {

@@ -3,8 +3,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/close_packing.h"
 #include "scenarios/calibrate/confidence.h"
 #include "scenarios/calibrate/packing_geometry.h"
+#include "scenarios/calibrate/table_fit.h"
 #include "tests/calibrate/synthetic.h"
 
 namespace morula::calibrate {
@@ -142,6 +144,80 @@ TEST(PackingFit, OfPairsAloneHasNoCurve) {
   const auto fitted = fit(data, {.poisson = kPoisson});
   ASSERT_TRUE(fitted.ok());
   EXPECT_TRUE(fitted->parameters.knots.size() < 3 || fitted->parameters.knots.back().pressure < 1e-3);
+}
+
+/// Regular clusters of cells at this distance: a triangle, a tetrahedron, one and its twelve neighbours.
+std::vector<Vec3d> cluster_of(int cells, double distance) {
+  if (cells == 13) return close_packed_places(1, distance);
+  const std::vector<Vec3d> corners{{0, 0, 0}, {1, 1, 0}, {1, 0, 1}, {0, 1, 1}};
+  std::vector<Vec3d> out;
+  for (int k = 0; k < cells; ++k) out.push_back(corners[static_cast<std::size_t>(k)] * (distance / std::numbers::sqrt2));
+  return out;
+}
+
+// cbm.md §3: two equal spheres that overlap by 2 s R have φ = ¼ s² (3 − s); and the force is the slope of the energy, here with p_c = φ, Ψ = ½ φ².
+TEST(Cluster, OfTwoIsWhatCapsSay) {
+  const std::vector<cbm::PackingKnot> knots{{1e-3, 0.0}, {0.1, 0.099}, {0.2, 0.199}, {0.5, 0.499}};
+  const auto curve = cbm::PackingCurve::through(knots);
+  ASSERT_TRUE(curve.ok());
+  const double ball = 4.0 / 3.0 * std::numbers::pi * std::pow(kRadius, 3.0);
+  const auto packing = [](double overlap) {
+    const double s = overlap / (2.0 * kRadius);
+    return 0.25 * s * s * (3.0 - s) * 4.0 / 2.0 / 2.0;
+  };
+  for (const double overlap : {1.5, 2.0, 3.0}) {
+    EXPECT_NEAR(packing_of_pair(overlap / kRadius), packing(overlap), 1e-12);
+    const PackingGeometry at = geometry_of_cluster(std::vector<Vec3d>{{0, 0, 0}, {0, 0, 2.0 * kRadius - overlap}}, kRadius);
+    EXPECT_NEAR(at.packing, packing(overlap), 1e-12);
+    const auto energy = [&](double x) { return ball * (curve->at(packing(x)).pressure > 0.0 ? std::pow(packing(x) - 1e-3, 2.0) : 0.0); };
+    const double h = 1e-4;
+    EXPECT_NEAR(packing_force_of_pair(*curve, kRadius, kRadius, overlap), (energy(overlap + h) - energy(overlap - h)) / (2.0 * h), 2e-3)
+        << overlap;
+  }
+  EXPECT_EQ(packing_force_of_pair(*curve, kRadius, kRadius, -0.1), 0.0);
+  EXPECT_EQ(packing_force_of_pair({}, kRadius, kRadius, 1.0), 0.0);
+}
+
+// Balls whose packing sets in at φ = 3 %, softly: packings of which only those beyond 8 % are known, and the distances at which clusters of the same balls rest. Without the clusters nobody
+// can tell what is between.
+TEST(PackingFit, ClustersTellHowTheCurveBegins) {
+  const auto truth = [](double packing) { return 0.5 * std::pow(std::max(0.0, packing - 0.03), 1.5) * 10.0; };  // [kPa]
+  const PairModel pair = jkr_model(0.3, kPoisson, kAdhesion);
+  Data data;
+  for (double overlap = -0.4; overlap < 1.5; overlap += 0.1)
+    data.pairs.push_back(
+        {.experiment = 1, .overlap = overlap, .force = pair(overlap, 0.5 * kRadius).force, .radius_a = kRadius, .radius_b = kRadius});
+  for (double ratio = 0.98; ratio > 0.69; ratio -= 0.02) {
+    const PackingGeometry at = lattice_geometry(Arrangement::kFaceCentred, ratio);
+    const double pressure = pair_pressure(at, kRadius, pair) + at.press * truth(at.packing);
+    data.packings.push_back({2, Arrangement::kFaceCentred, ratio, pressure, kRadius, false});
+  }
+  const FitOptions options{.poisson = kPoisson};
+  const auto curve_of = [&](const Data& from) { return cbm::PackingCurve::through(fit_curve(from, pair, options)); };
+  const auto without = curve_of(data);
+  ASSERT_TRUE(without.ok());
+  const auto at_rest = [&](int cells) {  // the distance at which pairs and packing are in balance
+    double low = 1.2 * kRadius, high = 2.0 * kRadius;
+    for (int k = 0; k < 60; ++k) {
+      const double middle = 0.5 * (low + high);
+      const PackingGeometry at = geometry_of_cluster(cluster_of(cells, middle), kRadius);
+      double packed = 0.0;
+      for (const PackedPart& part : at.parts) packed += part.press * truth(part.packing);
+      (pair_pressure(at, kRadius, pair) + packed > 0.0 ? low : high) = middle;
+    }
+    return low;
+  };
+  for (const int cells : {3, 4, 13})
+    data.clusters.push_back(
+        {.experiment = cells, .places = geometry_of_cluster(cluster_of(cells, at_rest(cells)), kRadius), .radius = kRadius});
+  const auto with = curve_of(data);
+  ASSERT_TRUE(with.ok());
+  const double told = data.clusters[1].places.packing;  // of the tetrahedron
+  ASSERT_GT(told, 0.04);
+  ASSERT_LT(told, 0.08);
+  EXPECT_NEAR(with->at(told).pressure / truth(told), 1.0, 0.1);
+  EXPECT_GT(std::abs(without->at(told).pressure / truth(told) - 1.0), 0.3);
+  for (const double packing : {0.12, 0.2, 0.3}) EXPECT_NEAR(with->at(packing).pressure / truth(packing), 1.0, 0.05) << packing;
 }
 
 // Experiments of pairs alone and of packings alone are drawn from in full: a sample without any pair would tell nothing.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scenarios/calibrate/held_out.h"
+#include "scenarios/calibrate/packing_geometry.h"
 #include "tests/calibrate/synthetic.h"
 
 namespace morula::calibrate {
@@ -72,7 +73,7 @@ TEST(TableFit, OfNoisyPointsRises) {
 /// The largest tension of a pair of the reference is at −0.544 µm, and it breaks at −1.132 µm with 5/9 of it (cbm.md §2): three quarters lie between.
 TEST(TableFit, BeginsNearTheLargestTension) {
   Data data = jkr_points(-1.1, 2.0, 63, 0.0, 1);
-  const auto table = fit_table(data, 63);
+  const auto table = fit_table(data, {}, 63);
   ASSERT_TRUE(table.ok());
   const double begins = table->break_overlap() * 2.5;
   EXPECT_LT(begins, -0.544241);
@@ -84,14 +85,56 @@ TEST(TableFit, BeginsNearTheLargestTension) {
 /// A contact line that jumps gives one place a tension that is larger than all others: what holds on beyond it still belongs to the law.
 TEST(TableFit, IsNotCutShortByOnePlaceThatPullsMost) {
   Data data = jkr_points(-1.1, 2.0, 63, 0.0, 1);
-  const auto smooth = fit_table(data, 63);
+  const auto smooth = fit_table(data, {}, 63);
   double largest = 0.0;
   for (const PairPoint& point : data.pairs) largest = std::min(largest, point.force);
   for (PairPoint& point : data.pairs)
     if (point.overlap > 0.4 && point.overlap < 0.45) point.force = 1.2 * largest;
-  const auto table = fit_table(data, 63);
+  const auto table = fit_table(data, {}, 63);
   ASSERT_TRUE(smooth.ok() && table.ok());
   EXPECT_NEAR(table->break_overlap(), smooth->break_overlap(), 0.2 / 2.5);
+}
+
+/// What a curve of packing adds to two cells is the curve's, not the table's too: both together are the points.
+TEST(TableFit, LeavesToPackingWhatPackingAdds) {
+  const std::vector<cbm::PackingKnot> knots{{0.01, 0.0}, {0.04, 0.02}, {0.2, 0.3}};
+  const auto curve = cbm::PackingCurve::through(knots);
+  ASSERT_TRUE(curve.ok());
+  const Data surface = surface_points();
+  Data packed = surface;
+  for (PairPoint& point : packed.pairs) point.force += packing_force_of_pair(*curve, point.radius_a, point.radius_b, point.overlap);
+  const auto table = fit_table(packed, *curve);
+  ASSERT_TRUE(table.ok()) << table.error().message;
+  const PairModel alone = table_model(*table);
+  for (const PairPoint& point : surface.pairs)
+    EXPECT_NEAR(alone(point.overlap, point.reduced_radius()).force, point.force, 1e-9 + (point.held_out ? 1e-6 : 0.0)) << point.overlap;
+  EXPECT_LT(held_out_errors(packed, alone, *curve, 0.42).force_worst, 1e-6);
+  EXPECT_GT(held_out_errors(packed, alone, {}, 0.42).force_worst, 0.01);
+}
+
+/// On the way out a contact line holds on: pairs are at rest at x = 0.4 and pull until 0.7 when they are drawn apart. The table pushes from 0.4 on, and stays halfway between both ways where
+/// they pull; without pairs that have come to rest it is halfway everywhere.
+TEST(TableFit, IsAtRestWherePairsRest) {
+  const auto line = [](double x, double rest) { return 0.6 * (x - rest); };
+  Data data;
+  for (int k = 0; k <= 130; ++k) {
+    const double x = -0.3 + 0.01 * k;
+    for (const double rest : {0.4, 0.7})
+      data.pairs.push_back(
+          {.experiment = 1, .overlap = 2.5 * x, .force = 2.5 * line(x, rest), .area = 10.0 + x, .radius_a = 5.0, .radius_b = 5.0});
+  }
+  const auto halfway = fit_table(data);
+  ASSERT_TRUE(halfway.ok());
+  EXPECT_NEAR(halfway->rest_overlap(), 0.55, 0.02);
+  for (const double x : {0.38, 0.40, 0.42})  // three meshes
+    data.clusters.push_back({.places = geometry_of_cluster(std::vector<Vec3d>{{0, 0, 0}, {0, 0, 10.0 - 2.5 * x}}, 5.0), .radius = 5.0});
+  const auto table = fit_table(data);
+  ASSERT_TRUE(table.ok());
+  EXPECT_NEAR(table->rest_overlap(), 0.4, 0.02);
+  const PairModel pair = table_model(*table);
+  for (const double x : {0.0, 0.2, 0.3}) EXPECT_NEAR(pair(2.5 * x, 2.5).force, 2.5 * line(x, 0.55), 0.05) << x;
+  for (const double x : {0.5, 0.6}) EXPECT_NEAR(pair(2.5 * x, 2.5).force, 2.5 * line(x, 0.4), 0.05) << x;
+  for (const double x : {0.85, 0.95}) EXPECT_NEAR(pair(2.5 * x, 2.5).force, 2.5 * line(x, 0.55), 0.12) << x;
 }
 
 }  // namespace

@@ -182,6 +182,51 @@ TEST(Experiments, GiveBackTheFrictionAlongTheContactOfSpheres) {
   for (const Experiment& e : experiments_for(material)) EXPECT_NE(e.kind, Experiment::Kind::kPressed) << "nothing to fit";
 }
 
+/// Spheres of a known law stand where the shells of clusters do. What a fit makes of them comes to rest at the same distances, and in a pair, a triangle and a tetrahedron, where each pair is
+/// free to come to its own rest, that is where JKR has no load. The neighbours of a sphere that becomes a shell are pushed further out by one that is stiffer.
+TEST(Experiments, GiveBackWhereClustersOfSpheresRest) {
+  const test::Folder folder;
+  CellMaterial material = material_of_balls();
+  std::vector<Experiment> clusters;
+  for (Experiment& e : experiments_for(material)) {
+    if (e.kind != Experiment::Kind::kCluster || e.held_out || e.seed > 1) continue;
+    for (std::size_t at = 0; (at = e.text.find("as: shell", at)) != std::string::npos;) e.text.replace(at, 9, "as: sphere");
+    clusters.push_back(e);
+  }
+  ASSERT_EQ(clusters.size(), 4u);
+  const auto outcomes = run_experiments(clusters, in(folder.path()), Comm());
+  ASSERT_TRUE(outcomes.ok());
+  std::vector<FoundCluster> found;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto one = cluster_of_run(clusters[k], (*outcomes)[k].run);
+    ASSERT_TRUE(one.ok()) << one.error().message;
+    EXPECT_LT(one->still, 1e-3 * 5.0) << "at rest";
+    found.push_back(*one);
+  }
+  material.shell = "dcm: {nodes: 42}";  // of which the studies of spheres make spheres
+  TrialLaw law{.sphere = {.young = 0.8, .poisson = 0.4}, .adhesion = 0.05, .pair = calibrate::jkr_model(0.8, 0.4, 0.05)};
+  const auto spheres = spheres_in_clusters(material, found, law);
+  ASSERT_TRUE(spheres.ok()) << spheres.error().message;
+  // JKR at no load: a³ = 9πWR*²/(2E*), δ = a²/(3R*), E* of two such spheres 0.8 kPa/(2 · 0.84)
+  const double contact = std::cbrt(4.5 * std::numbers::pi * 0.05 * 6.25 / (0.8 / 1.68)), rest = 10.0 - contact * contact / 7.5;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const RestingCluster& one = (*spheres)[k];
+    EXPECT_EQ(one.cells, (std::array<std::size_t, 4>{2, 3, 4, 13}[k]));
+    EXPECT_NEAR(one.shells, rest, (k < 3 ? 0.002 : 0.02) * 5.0);  // of thirteen, the middle one bears what outer ones pull inwards
+    EXPECT_NEAR(one.error(), 0.0, 1e-3);
+    const auto places = calibrate::geometry_of_cluster(found[k].centers, 5.0);
+    EXPECT_EQ((calibrate::ClusterPoint{.places = places, .radius = 5.0}.is_pair()), k == 0);
+    EXPECT_NEAR(calibrate::pair_pressure(places, 5.0, law.pair), 0.0, 1e-3) << "[kPa]: nothing presses on them";
+  }
+  const auto way = [&](double stiffness) {
+    law.sphere.with_shells = {stiffness, 1.0};
+    return way_of_promotion(material, law).value();
+  };
+  const double soft = way(0.25), stiff = way(2.0);
+  EXPECT_GT(stiff, soft + 0.01);
+  EXPECT_LT(std::abs(soft), 0.3);
+}
+
 /// A study that takes a law from the file of a calibration: two spheres come to rest where JKR with the true E and W has no load, though the shells of the
 /// type adhere twice as much; and after a swap of the law to that of the study they do not.
 TEST(Experiments, AStudyUsesTheLawThatWasFound) {
@@ -383,14 +428,19 @@ TEST(Budget, LeavesOutWhatJudgesFirstAndNeverWhatTheFitNeeds) {
     EXPECT_EQ(list->kept.front().name, "equal_pair_1");
   }
   const auto is_mixed = [](const std::string& name) { return name.starts_with("mixed_pair"); };
-  EXPECT_EQ(std::ranges::count_if(order, is_mixed), 19);
+  EXPECT_EQ(std::ranges::count_if(order, is_mixed), 28);
+  const auto is_cluster = [](const std::string& name) { return name.starts_with("cluster_of"); };
+  EXPECT_EQ(std::ranges::count_if(order, is_cluster), 11);
   for (std::string& name : order)
-    if (is_mixed(name)) name = "mixed_pairs";
+    if (is_mixed(name))
+      name = "mixed_pairs";
+    else if (is_cluster(name))
+      name = "clusters";
   order.erase(std::unique(order.begin(), order.end()), order.end());
-  EXPECT_THAT(order,
-              testing::ElementsAre("packing_fcc", "packing_bcc", "unequal_pair_3", "packing_random_3", "unequal_pair_1", "unequal_pair_2",
-                                   "mixed_pairs", "pressed_cluster_1", "pressed_cluster_2", "pressed_cluster_3", "relaxing_pair_1",
-                                   "relaxing_pair_2", "relaxing_pair_3", "equal_pair_3", "packing_random_2", "packing_random_1"));
+  EXPECT_THAT(order, testing::ElementsAre("packing_fcc", "packing_bcc", "unequal_pair_3", "packing_random_3", "unequal_pair_1",
+                                          "unequal_pair_2", "mixed_pairs", "clusters", "pressed_cluster_1", "pressed_cluster_2",
+                                          "pressed_cluster_3", "relaxing_pair_1", "relaxing_pair_2", "relaxing_pair_3", "equal_pair_3",
+                                          "packing_random_2", "packing_random_1"));
   const auto more_than_162 = [&](std::uint32_t nodes) { return expected_seconds(all.front(), nodes) - expected_seconds(all.front(), 162); };
   EXPECT_GT(more_than_162(642), 0.0);
   EXPECT_NEAR(more_than_162(642) / more_than_162(324), 480.0 / 162.0, 1e-9);  // a run costs something, and each node the same

@@ -26,7 +26,7 @@ TEST(Calibrate, FindsALawOfShellsAndWritesAReport) {
               "tension: 0.3 mN/m}}");
   folder.write("study.yaml", study);
   const Outcome first =
-      run_morula({"calibrate", "jkr", "small", "study.yaml", "--budget", "56 s", "--out", "found"}, folder.path(), {.timeout = kLong});
+      run_morula({"calibrate", "jkr", "small", "study.yaml", "--budget", "80 s", "--out", "found"}, folder.path(), {.timeout = kLong});
   ASSERT_EQ(first.exit_code, 0) << first.all();
   EXPECT_THAT(first.err, HasSubstr("no time for packing_fcc, packing_bcc, unequal_pair_3, packing_random_3\n"));
   expect_law_and_report(folder, study, first);
