@@ -24,9 +24,11 @@ std::vector<PlacedPacking> placed(const Data& data) {
   return out;
 }
 
+/// Cells of which none touches another tell nothing.
 std::vector<ClusterPoint> fitted_clusters(const Data& data) {
   std::vector<ClusterPoint> out;
-  std::ranges::copy_if(data.clusters, std::back_inserter(out), [](const ClusterPoint& point) { return !point.held_out; });
+  std::ranges::copy_if(data.clusters, std::back_inserter(out),
+                       [](const ClusterPoint& point) { return !point.held_out && !point.places.neighbours.empty(); });
   return out;
 }
 

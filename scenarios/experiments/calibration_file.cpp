@@ -140,8 +140,9 @@ std::string with_shells_text(const std::optional<MixedContact>& found) {
          "  # from halfway between both, root mean square in parts of the pull-off force 1.5 pi W R*" +
          "\n  unfitted: " + number(found->unfitted) + "  # the same with both factors 1" + "\n  outside: " + number(found->outside) +
          "  # beyond both, root mean square, and at worst\n  outside_worst: " + number(found->outside_worst) +
-         "\n  promoted: " + number(found->promoted) +
-         "  # way of the twelve neighbours of a sphere that becomes a shell, outwards, over R" +
+         (found->promoted ? "\n  promoted: " + number(*found->promoted) +
+                                "  # way of the twelve neighbours of a sphere that becomes a shell, outwards, over R"
+                          : "") +
          (found->held_out ? "\n  held_out: " + number(*found->held_out) + "  # misfit where radii are 1 : 1.3 and 1.3 : 1" : "") + "\n";
 }
 

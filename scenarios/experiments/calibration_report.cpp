@@ -260,8 +260,9 @@ ReportContent content_of(const Calibration& found, const std::string& command) {
   out.title = "Contact law of '" + found.material.type + "' from deformable cells";
   out.study = found.material.type;
   out.state = "done";
-  out.summary = "JKR and a curve of packing, fitted to " + std::to_string(found.experiments.size()) +
-                " virtual experiments with shells of " + std::to_string(found.material.nodes) + " nodes.";
+  out.summary = (fit.parameters.knots.empty() ? "JKR, fitted to " : "JKR and a curve of packing, fitted to ") +
+                std::to_string(found.experiments.size()) + " virtual experiments with shells of " + std::to_string(found.material.nodes) +
+                " nodes.";
   out.key_numbers = {
       {"E", three(fit.parameters.young), "kPa (95 %: " + between(sure.young.interval) + ")"},
       {"W", three(fit.parameters.adhesion), "nN/um (95 %: " + between(sure.adhesion.interval) + ")"},
@@ -304,7 +305,8 @@ ReportContent content_of(const Calibration& found, const std::string& command) {
     out.key_numbers.push_back({"force of such a pair from halfway between two shells and two spheres, root mean square",
                                three(100.0 * mixed->misfit),
                                "% of the pull-off force (without both factors " + three(100.0 * mixed->unfitted) + " %)"});
-    out.key_numbers.push_back({"neighbours of a sphere that becomes a shell go outwards by", three(100.0 * mixed->promoted), "% of R"});
+    if (mixed->promoted)
+      out.key_numbers.push_back({"neighbours of a sphere that becomes a shell go outwards by", three(100.0 * *mixed->promoted), "% of R"});
   }
   const auto add = [&](const CurvePlot& plot) { out.plots.push_back({"", curves_svg(plot, SvgUse::kInline)}); };
   add(pair_plot(found, false));

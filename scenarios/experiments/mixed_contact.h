@@ -25,8 +25,8 @@ struct MixedContact {
   double misfit = 0.0;                        ///< from halfway between two shells and two spheres, with the fitted factors
   double unfitted = 0.0;                      ///< the same with both factors 1
   double outside = 0.0, outside_worst = 0.0;  ///< beyond the pairs of one body
-  double promoted = 0.0;                     ///< way outwards of the twelve neighbours of a sphere that becomes a shell, over R; 0: not run
-  std::optional<double> held_out;            ///< misfit of pairs of 1 : 1.3, the larger one a sphere and a shell; none: not run
+  std::optional<double> promoted;  ///< way outwards of the twelve neighbours of a sphere that becomes a shell, over R; none: not run
+  std::optional<double> held_out;  ///< misfit of pairs of 1 : 1.3, the larger one a sphere and a shell; none: not run
   std::vector<MixedComparison> comparisons;  ///< of equal cells with the fitted factors, for a figure
 };
 

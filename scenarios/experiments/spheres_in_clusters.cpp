@@ -22,7 +22,9 @@ std::vector<Vec3d> centers_by_id(const Simulation& simulation) {
 Result<std::unique_ptr<Simulation>> start(const CellMaterial& material, const std::string& text, const TrialLaw& law) {
   const auto study = read_study_text("spheres", text, {});
   if (!study.ok()) return Error{ErrorKind::kInternal, "the study of spheres in a cluster is refused: " + study.error().text(), ""};
-  return spheres_on_trial(*study, law, material.adhesion);
+  MORULA_TRY_ASSIGN(auto simulation, spheres_on_trial(*study, law, material.adhesion));
+  MORULA_TRY(simulation->first_swaps());
+  return simulation;
 }
 
 Status go_on(Simulation& simulation, double end) {
@@ -42,7 +44,6 @@ double distance_from_first(std::span<const Vec3d> centers) {
 Result<double> way_of_promotion(const CellMaterial& material, const TrialLaw& law) {
   const double end = time_of_cluster(material);
   MORULA_TRY_ASSIGN(const auto simulation, start(material, study_of_promotion(material), law));
-  MORULA_TRY(simulation->first_swaps());
   MORULA_TRY(go_on(*simulation, end));
   const double before = distance_from_first(centers_by_id(*simulation));
   MORULA_TRY(go_on(*simulation, 2.0 * end));
@@ -54,7 +55,7 @@ Result<std::vector<RestingCluster>> spheres_in_clusters(const CellMaterial& mate
   std::vector<RestingCluster> out;
   for (const FoundCluster& cluster : clusters) {
     MORULA_TRY_ASSIGN(const auto simulation, start(material, study_of_spheres_in_cluster(material, cluster.centers), law));
-    MORULA_TRY(come_to_rest(*simulation, cluster.radius, time_of_cluster(material)));
+    MORULA_TRY(go_on(*simulation, time_of_cluster(material)));
     out.push_back({.cells = cluster.centers.size(),
                    .held_out = cluster.held_out,
                    .radius = cluster.radius,

@@ -20,8 +20,8 @@ struct RestingCluster {
   [[nodiscard]] double error() const { return (spheres - shells) / radius; }
 };
 
-/// Puts spheres of a law where the shells of clusters are and lets them come to rest, with the friction of the law. Errors: kInternal, a study of such spheres is refused; those of
-/// spheres_on_trial() and come_to_rest().
+/// Puts spheres of a law where the shells of clusters are and lets them come to rest for as long as shells are given, with the friction of the law. Errors: kInternal, a study of such spheres
+/// is refused; those of spheres_on_trial() and Simulation::step().
 Result<std::vector<RestingCluster>> spheres_in_clusters(const CellMaterial& material, std::span<const FoundCluster> clusters,
                                                         const TrialLaw& law);
 

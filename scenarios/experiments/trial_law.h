@@ -19,9 +19,6 @@ struct TrialLaw {
   [[nodiscard]] calibrate::PairModel of_two() const { return calibrate::with_packing(pair, sphere.packing); }
 };
 
-/// Lets the spheres of a simulation come to rest, or go on until `end` [s]; `radius`: of a sphere [µm]. Errors: kPhysics, spheres that find no rest; steps that fail.
-Status come_to_rest(Simulation& simulation, double radius, double end);
-
 /// A simulation of the first moment of a study whose one type has spheres of a law on trial, in place of shells that adhere with `adhesion_of_shells` [nN/µm]. One rank
 /// and thread. Errors: those of make_tissue() and Simulation::create().
 Result<std::unique_ptr<Simulation>> spheres_on_trial(const Study& study, const TrialLaw& law, double adhesion_of_shells);

@@ -218,6 +218,10 @@ TEST(PackingFit, ClustersTellHowTheCurveBegins) {
   EXPECT_NEAR(with->at(told).pressure / truth(told), 1.0, 0.1);
   EXPECT_GT(std::abs(without->at(told).pressure / truth(told) - 1.0), 0.3);
   for (const double packing : {0.12, 0.2, 0.3}) EXPECT_NEAR(with->at(packing).pressure / truth(packing), 1.0, 0.05) << packing;
+  data.clusters.push_back({.experiment = 5, .places = geometry_of_cluster(cluster_of(3, 2.01 * kRadius), kRadius), .radius = kRadius});
+  const auto apart = curve_of(data);
+  ASSERT_TRUE(apart.ok());
+  EXPECT_EQ(apart->at(told).pressure, with->at(told).pressure) << "cells that do not touch tell nothing";
 }
 
 // Experiments of pairs alone and of packings alone are drawn from in full: a sample without any pair would tell nothing.
